@@ -217,9 +217,10 @@ def sweep(sweep_inout):
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
-    """Return (fraction, normal x, normal y, work counters) of the world's sweep of a mover against another shape.
+    """Return (fraction, normal x, normal y, id of the tile or link) of the first impact of a mover with another shape.
 
-    motion: start pose and end pose of the mover in one tuple; motion_b: those of the other shape.
+    It uses the world's sweep. motion: start pose and end pose of the mover in one tuple; motion_b: those of the other
+    shape.
     """
     library, bodies, shapes, work = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE), np.zeros(len(COUNTERS), np.int64)
     for row, shape in enumerate((mover, other)):

@@ -1,1 +1,1 @@
-"""One test per defect that was found, named by what must hold."""
+"""Regression tests, one file for each defect that was found, named after the correct behaviour."""

@@ -1,4 +1,4 @@
-"""The shell's faults are driven as its other tests are, each with a data folder of its own."""
+"""Fixtures of the game's tests, reused for defects of the game shell; each test has its own data folder."""
 
 from tests.game.conftest import data_folder_of_the_test, drive
 

@@ -1,4 +1,6 @@
-"""A client of the measuring process ended in a traceback if the scene was left at the wrong moment."""
+"""The reader of the measuring process reports the end if its pipe is closed while it reads, instead of raising an
+error.
+"""
 
 import os
 from queue import SimpleQueue

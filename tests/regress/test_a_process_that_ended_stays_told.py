@@ -1,4 +1,7 @@
-"""Data being packed while the measuring process died replaced "has ended" with "I/O operation on closed file"."""
+"""The message that the measuring process "has ended" stays if the process dies while data for it is packed.
+
+Before the fix "I/O operation on closed file" replaced it.
+"""
 
 import threading
 from time import monotonic, sleep
@@ -7,7 +10,7 @@ from game.measure.surveyor import Surveyor
 
 
 class Packed:
-    """Snapshot whose save() waits until the test sets `free`."""
+    """Snapshot whose save() waits until the test sets the event `free`."""
 
     def __init__(self) -> None:
         self.begun, self.free, self.done = threading.Event(), threading.Event(), threading.Event()

@@ -1,4 +1,4 @@
-"""A body on a moving surface is not at rest, however slow the surface."""
+"""A body on a moving surface does not sleep, however slow the surface is."""
 
 import pytest
 
@@ -47,7 +47,7 @@ def test_what_is_stacked_on_it_goes_along():
 
 
 def test_what_carries_its_own_belt_goes_on():
-    """The surface may be the crate's."""
+    """A body whose own material has a surface speed moves on ground and stays awake."""
     world = World(Effects.rigid_bodies().with_(conveyor=True))
     world.add_body(Polygon.box(4000, 20), position=(0, 10), kind="static")
     crate = world.add_body(Polygon.box(20, 20), position=(0, -10), material=Material(surface_speed=1.0))

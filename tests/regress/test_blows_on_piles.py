@@ -1,6 +1,6 @@
-"""A heavy box dropped on a pyramid bounced off it at 0.6 of its speed, tilted, and took the pyramid down.
+"""A heavy box dropped on a pyramid stays on it; before the fix it bounced off at 0.6 of its speed and knocked it over.
 
-Springs as stiff as 32 substeps allow carried the impulse of the blow on from substep to substep; of fifty such drops
+Springs as stiff as 32 substeps allow carried the impulse of the impact from substep to substep. Of fifty such drops
 seven ended on the floor.
 """
 

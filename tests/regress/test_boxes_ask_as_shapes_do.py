@@ -1,4 +1,8 @@
-"""Worlds without narrow phase reported sensors like solids, and sleeping bodies like awake ones."""
+"""Worlds without a narrow phase treat sensors and sleeping bodies correctly; before the fix they reported sensors as
+solids.
+
+They also reported sleeping bodies as awake.
+"""
 
 import numpy as np
 import pytest
@@ -9,7 +13,7 @@ PILES = Effects(narrowphase=False, response=True, stacking=True, sleeping=True, 
 
 
 def test_sensors_push_nobody_without_a_narrow_phase():
-    """The ball lifts the plank into the sensor, which tells of it as a sensor, once."""
+    """Without a narrow phase, a plank lifted into a sensor is reported by one sensor event and is not pushed."""
     world = World(PILES)
     world.add_body(Circle(20.0), PixelMask(np.ones((5, 24), bool)), position=(0.0, 32.0))
     zone = world.add_body(Circle(30.0), PixelMask(np.ones((2, 6), bool)), sensor=True)
@@ -26,7 +30,10 @@ def test_sensors_push_nobody_without_a_narrow_phase():
 
 @pytest.mark.parametrize("narrowphase", [True, False])
 def test_pair_that_falls_asleep_begins_once(narrowphase):
-    """A standing hero is awake but wakes no body: a body on him sleeps, and is reported no more."""
+    """A pair that falls asleep has one begin event.
+
+    A standing character is awake but wakes no body: a body on it sleeps and is not reported again.
+    """
     world = World(PILES.with_(narrowphase=narrowphase))
     plank = world.add_body(Polygon.box(172.0, 2.0))
     Character(world, Circle(7.0), (0.0, 0.0))

@@ -1,4 +1,4 @@
-"""Bounds are collided by the boxes that stand in the table of shapes, with the answer of boxes that are polygons."""
+"""Bounds collide by the boxes in the table of shapes, with the same results as boxes given as polygons."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SHAPES = (
 
 
 def box_of(shape, pose):
-    """Return (polygon, pose) of the AABB of a shape at a pose, read from a world with this shape alone."""
+    """Return (polygon, pose) of the AABB of a shape at a pose, read from the table of a world with this shape only."""
     world = World(Effects())
     world.add_body(Bounds(shape), position=pose[:2], angle=pose[2])
     world.step()
@@ -68,7 +68,7 @@ def test_bounds_answer_as_a_box_to_anything(wrapped, other):
 
 @pytest.mark.parametrize("touching", [0.0, 5.0])
 def test_they_are_closed(touching):
-    """Touching along a side, and at a corner alone, is a contact with separation 0."""
+    """Boxes are closed: two that touch along a side or at a corner have a contact with separation 0."""
     box = Bounds(Polygon.box(10, 10))
     for x, y in ((10.0, touching), (-10.0, touching), (touching, 10.0), (touching, -10.0), (10.0, 10.0)):
         found = collide(box, (0, 0, 0), box, (x, y, 0))
@@ -79,7 +79,10 @@ def test_they_are_closed(touching):
 @pytest.mark.parametrize("solver", ["blocking", "projection", "sequential_impulse", "soft_step"])
 @pytest.mark.parametrize("sensors", [False, True])
 def test_the_boxes_in_the_table_are_those_of_the_final_poses(solver, sensors):
-    """Also of what falls asleep, of characters' platforms, of what is stopped on its way, and of what stands."""
+    """The boxes in the table are those of the final poses, for all kinds of motion.
+
+    They include bodies that fall asleep, platforms of characters, bodies stopped by a sweep, and static bodies.
+    """
     stacking = solver in ("sequential_impulse", "soft_step")
     effects = Effects.rigid_bodies().with_(stacking=stacking, sleeping=stacking, sensors=sensors)
     world = World(effects, solver=solver)

@@ -1,4 +1,4 @@
-"""Editors of Windows put a byte order mark before a file: every JSON file is read with one as without."""
+"""Every JSON file is read with or without a byte order mark, which editors on Windows write."""
 
 import json
 

@@ -1,4 +1,7 @@
-"""A pair with a carved mask was a candidate twice: its new parts have rows after those of shapes added later."""
+"""A pair with a carved mask is a candidate once; before the fix it was listed twice.
+
+The rows of a carved mask's new parts follow those of shapes that were added later.
+"""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A character that was put into a static solid is moved out, a little in each move, or stays in place."""
+"""A character placed inside a static solid moves out a little in each move, or stays in place."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,9 @@ def test_stays_where_nothing_is_free_within_its_own_size():
 
 
 def test_does_not_leave_one_solid_for_another_or_for_another_character():
-    """Between two walls: right is nearer, but a third wall is there; up leads out of all."""
+    """A character between two walls leaves upwards, because the nearer way to the right ends in a third wall or a
+    character.
+    """
     world = room((Polygon.box(20, 30), (0, 0)), (Polygon.box(20, 400), (26, 0)))
     hero = Character(world, HERO, (9, -14))
     for _ in range(20):
@@ -82,7 +84,7 @@ def test_does_not_leave_one_solid_for_another_or_for_another_character():
 
 
 def test_from_behind_a_chain_and_inside_a_one_way_tile_it_goes_where_it_is_told():
-    """Both are open from that side: it is in nothing."""
+    """A character behind a chain or inside a one-way tile is free, because both are open from that side."""
     world = World(Effects(response=True, one_way=True), gravity=(0, 0))
     world.add_body(Chain([(-100, 0), (100, 0)]), kind="static")
     hero = Character(world, HERO, (0, 12))

@@ -1,4 +1,4 @@
-"""Found by random programs: a character's body that was made static was still carried, with the speed of its ground."""
+"""A character's body cannot be made static; before the fix its ground still carried it (found by random programs)."""
 
 import pytest
 

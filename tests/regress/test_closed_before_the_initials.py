@@ -1,4 +1,4 @@
-"""Closing the window after a game that ranks, before the initials were entered, lost the place in the table."""
+"""A ranked game whose window is closed before the initials are entered still gets its entry in the high scores."""
 
 import pygame as K
 import pytest

@@ -1,4 +1,4 @@
-"""The report's commands could not be copied where the folder's name had a space: they are quoted for the shell."""
+"""Commands in the report are quoted for the shell, so that folder names with spaces work."""
 
 import json
 import os

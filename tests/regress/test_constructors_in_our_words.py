@@ -1,4 +1,6 @@
-"""Whatever a constructor is handed, the error names the argument, in our words and not in NumPy's or Python's."""
+"""The error of a constructor for any wrong value names the argument in the project's wording, not in NumPy's or
+Python's.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Contacts describe the poses that a step ends with: their points, normals, separations and areas."""
+"""Contacts are reported at the final poses of a step: their points, normals, separations and areas."""
 
 import math
 
@@ -37,7 +37,9 @@ def detected(world, contact, margin=40.0):
 
 
 def motion(world, contact):
-    """Return the relative motion of the sides at a contact, including rotation at their arms [px]."""
+    """Return the relative motion of the two bodies at a contact in the last step [px], including rotation at their
+    arms.
+    """
     total = np.zeros(2)
     turns = 0.0
     for name, sign in (("body_a", -1.0), ("body_b", 1.0)):
@@ -52,8 +54,11 @@ def motion(world, contact):
 @pytest.mark.parametrize("shapes", SHAPES)
 @pytest.mark.parametrize("ground", GROUNDS)
 def test_they_are_what_a_look_at_the_final_poses_finds(solver, shapes, ground):
-    """Known again by its feature, a point is off by no more than the second order of the motion; by the first where a
-    corner has left its face, or has come upon it, in this very step."""
+    """Reported contacts equal those computed at the final poses.
+
+    A point matched by its feature may differ by the second order of the motion. It may differ by the first order if a
+    corner left or reached a face in this step.
+    """
     world = world_for(solver, FULL.with_(continuous=False))
     shape, place = GROUNDS[ground]()
     world.add_body(shape, position=place, kind="static")
@@ -92,7 +97,10 @@ def test_they_are_what_a_look_at_the_final_poses_finds(solver, shapes, ground):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_box_and_a_disc_that_slide_on_the_ground(solver):
-    """Closed form: under the corners of the box and the middle of the disc, halfway between the two surfaces."""
+    """The contacts of a sliding box and disc have closed-form points.
+
+    They lie under the corners of the box and the centre of the disc, halfway between the two surfaces.
+    """
     world = world_for(solver, FULL.with_(friction=False, rotation=False), gravity=(0, 300))
     world.add_body(Polygon.box(4000, 20), position=(0, 10), kind="static")
     box = world.add_body(Polygon.box(20, 12), position=(0, -8), velocity=(410.0, 90.0))
@@ -114,7 +122,7 @@ def test_a_box_and_a_disc_that_slide_on_the_ground(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS[1:])
 def test_discs_round_each_other_and_round_a_corner(solver):
-    """Closed form: on the line from centre to centre, and from the corner to the centre."""
+    """The contacts of discs that move around a disc or a corner lie on the line to its centre or to the corner."""
     world = world_for(solver, gravity=(0, 0))
     still = world.add_body(Circle(9.0), kind="static")
     block = world.add_body(Polygon.box(40, 40), position=(100, 20), kind="static")  # its corner at (80, 0)
@@ -181,7 +189,10 @@ def test_a_character_that_was_carried_after_the_solver(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_the_pixels_that_masks_share_at_the_end(solver):
-    """The area is the pixels' verdict where the bodies are now, against masks, discs, boxes, tiles and links."""
+    """The area of a mask's contact is the number of shared pixels at the final poses.
+
+    It is tested against masks, discs, boxes, tiles and chain links.
+    """
     world = world_for(solver, FULL.with_(continuous=False))
     world.add_body(TileGrid(np.ones((1, 30), bool), 16.0), position=(-240, 0), kind="static")
     world.add_body(Chain([(260.0, 0.0), (560.0, 0.0)]), kind="static")

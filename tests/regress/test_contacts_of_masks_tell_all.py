@@ -1,4 +1,7 @@
-"""Without response a step tests only whether two masks overlap: their contacts had an area of 0."""
+"""Contacts of masks have their area in worlds without response; before the fix it was 0.
+
+There a step tests only whether two masks overlap.
+"""
 
 import numpy as np
 import pytest

@@ -1,8 +1,8 @@
-"""A corner of a mask's outline that several parts share: its contact must come from a part that can report it.
+"""A corner of a mask's outline shared by several parts has a contact; before the fix it had none.
 
-The contact was taken from the first part, and dropped, because both sides of that part were covered at this corner. A
-body on such a corner had no contact. A fast one was stopped by the sweep in every step, and its speed grew by gravity's
-for ever.
+The contact was taken from the first part and dropped, because both edges of that part were covered at the corner. A
+body on the corner had no contact. A fast one was stopped by the sweep in every step, while gravity increased its speed
+without limit.
 """
 
 import math
@@ -35,7 +35,7 @@ GAP = 0.05  # [px] between the corner and the floor
 def outermost(mask):
     """Yield (x, y, direction [rad]) of each corner of the convex hull of a mask's outline.
 
-    direction: the middle of the directions that the corner faces.
+    direction: the mean outward direction of the corner's two edges.
     """
     points = sorted({tuple(point) for part in outline_of(mask) for point in part.shape.points})
     hull = []

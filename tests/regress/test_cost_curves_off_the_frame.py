@@ -1,5 +1,7 @@
-"""lab/broadphases built the worlds of its cost curve on the frame, 32 ms once a layout; they are made where they are
-measured."""
+"""lab/broadphases builds the worlds of its cost curve in the measuring process, not during a frame.
+
+On the frame it took 32 ms for each layout.
+"""
 
 from game.measure.surveyor import Surveyor
 from game.measurement_requests import Recipe, RunRequest

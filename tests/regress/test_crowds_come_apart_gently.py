@@ -1,4 +1,4 @@
-"""Bodies that start in one place are separated at the push-out speed, per body, whatever the number of contacts."""
+"""Bodies that start at one position separate at the push-out speed per body, whatever the number of contacts."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,10 @@ def test_a_crowd_gets_apart(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("speed", [60.0, 200.0, 845.0, 1500.0])
 def test_discs_without_bounce_stay_together(solver, speed):
-    """Parting at no more than one hundredth of the speed, or at four slops in the time of ten steps."""
+    """Discs without restitution stay together after an impact.
+
+    They separate at no more than one hundredth of the speed, or at four slops in ten steps.
+    """
     world = still_world(solver)
     a = world.add_body(Circle(8.0), position=(-40.0, 0.0), velocity=(0.5 * speed, 0.0))
     b = world.add_body(Circle(8.0), position=(40.0, 0.0), velocity=(-0.5 * speed, 0.0))
@@ -64,7 +67,7 @@ def test_discs_without_bounce_stay_together(solver, speed):
 
 
 def test_what_comes_fast_is_pushed_out_at_once_by_projection():
-    """The cap is for old overlap: a fast fall is taken back in the step in which it went in."""
+    """Projection pushes a fast body out at once, because the limit on the push-out applies to old overlap only."""
     world = World(Effects(response=True, gravity=True), gravity=(0, 0))
     world.add_body(Polygon.box(400, 100), position=(0, 50), kind="static")
     box = world.add_body(Polygon.box(20, 20), position=(0, -12), velocity=(0.0, 900.0), continuous="off")
@@ -73,7 +76,10 @@ def test_what_comes_fast_is_pushed_out_at_once_by_projection():
 
 
 def test_a_column_under_projection_sinks_and_then_no_more():
-    """Capping each push by itself let the lowest crates sink into the ground and into each other without end."""
+    """Under projection a column sinks a little, then stops.
+
+    A limit on each push alone let the lowest crates sink into the ground and each other without end.
+    """
     world = World(Effects(response=True, gravity=True), solver="projection")
     world.add_body(Polygon.box(400, 40), position=(0, 20), kind="static")
     column = [world.add_body(Polygon.box(16, 16), position=(0, -8 - 16 * k)) for k in range(10)]

@@ -1,4 +1,4 @@
-"""A data folder that may not be looked into, or whose name no system takes, was a traceback at start and in menus."""
+"""A data folder that is unreadable or has an invalid name gives a message at the start and in menus, no traceback."""
 
 from pathlib import Path
 

@@ -1,6 +1,6 @@
-"""A sprite deep in another that moves little: the push that separates it is found again, and not reported twice.
+"""The contacts of a sprite deep in another are reported once; before the fix a manifold was added in every step.
 
-A recycled manifold has rotated by some bits since, and was taken for another face: a manifold more in every step.
+A recycled manifold that had rotated by some bits was taken for a new face.
 """
 
 import math

@@ -1,4 +1,6 @@
-"""A sound device unplugged, a display lost or a window mode refused during play ended in a traceback of pygame."""
+"""A sound device, display or window mode lost during play does not end the game; before the fix it ended in a
+traceback.
+"""
 
 import pygame as K
 import pytest

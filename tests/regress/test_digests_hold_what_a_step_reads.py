@@ -1,4 +1,6 @@
-"""Two worlds that will go on differently have two digests: also when only a setting, a mass or a filter differs."""
+"""Two worlds that will behave differently have different digests, also if only a setting, a
+mass or a filter differs.
+"""
 
 import pytest
 

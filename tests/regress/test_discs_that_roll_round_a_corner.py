@@ -1,5 +1,7 @@
-"""A disc that rolled around a corner was pushed along the line to that corner for ever: its manifold was recycled as
-long as it had not rotated since the last step, and it sank into the face beyond, by up to its own size.
+"""A disc that rolls around a corner stays on the next face; before the fix it sank into it by up to its own size.
+
+Its manifold was recycled as long as it had not rotated since the last step, so the disc was still pushed along the line
+to the corner.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""Faults of drawing, each as the smallest picture that showed it."""
+"""Regression tests of drawing, each with the smallest picture that showed the defect."""
 
 from game.drawing.canvas import Canvas
 from scenes.platformer.scene import Platformer

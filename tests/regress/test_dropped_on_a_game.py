@@ -1,4 +1,4 @@
-"""A file that is no replay, dropped on a running game, ended the game."""
+"""A file that is no replay, dropped on a running game, does not end the game."""
 
 import pygame as K
 import pytest

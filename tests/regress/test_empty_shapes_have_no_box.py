@@ -1,4 +1,4 @@
-"""A mask without pixels and a grid without cells stand nowhere: no box finds them, whatever else finds their body."""
+"""A mask without pixels and a grid without cells have no box: no box query finds them, whatever finds their body."""
 
 import numpy as np
 import pytest

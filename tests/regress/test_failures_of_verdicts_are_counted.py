@@ -1,4 +1,4 @@
-"""A run whose verdicts were compared counted only the failures of its last step, and no disabled bodies."""
+"""A comparison of verdicts counts the failures of all steps of a run, including disabled bodies."""
 
 import numpy as np
 

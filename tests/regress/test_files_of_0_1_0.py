@@ -1,6 +1,6 @@
-"""Files that version 0.1.0 wrote are read by this program, or refused by a line that names the version.
+"""Files written by version 0.1.0 are read, or refused with a message that names the version.
 
-`python -m tests.regress.test_files_of_0_1_0` wrote them beside this test, at 0.1.0, and is not run again.
+`python -m tests.regress.test_files_of_0_1_0` wrote the files beside this test with version 0.1.0; it is not run again.
 """
 
 import shutil
@@ -26,7 +26,9 @@ SCENE, FRAMES = "lab/cradle", 60
 
 
 def small_world():
-    """Return a world with every kind of row: shapes of all sorts, a carved mask, a joint, users left out."""
+    """Return a world with every kind of row: shapes of all sorts, a carved mask and a joint; no body has a `user`
+    value.
+    """
     world = World(EFFECTS, gravity=(0, 500), seed=7)
     world.add_body(TileGrid([[True, False], [True, True]], 16), position=(0, 100), kind="static")
     world.add_body(Chain([(0, 90), (200, 90)]), kind="static")
@@ -41,7 +43,7 @@ def small_world():
 
 
 def write():
-    """Write the files. The ghost goes to the player's folder first, so run this with HITBOX_DATA set."""
+    """Write the files. The ghost is first written to the player's data folder, so run this with HITBOX_DATA set."""
     FOLDER.mkdir(exist_ok=True)
     world = small_world()
     world.snapshot().save(FOLDER / "world.npz")

@@ -1,4 +1,4 @@
-"""A device or a pipe named as output was replaced by a file; a screenshot without .png became another format."""
+"""A device or pipe given as output file is written to, not replaced; a screenshot without .png is still a PNG."""
 
 import os
 import threading

@@ -1,4 +1,4 @@
-"""A file that could not be read could not be copied either, and the next save wrote over the only one there was."""
+"""A settings file that can be neither read nor copied is not overwritten by the next save."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from game.files.settings import Settings, load_settings, save_settings
 
 @pytest.fixture
 def closed(monkeypatch):
-    """A settings file without the right to read it; being another's, it may still be renamed."""
+    """Make the settings file unreadable; it can still be renamed. Returns its path."""
     path = data_folder() / "settings.json"
     path.write_text('{"version": 2, "initials": "ABC"}')
     read = Path.read_bytes

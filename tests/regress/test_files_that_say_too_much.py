@@ -1,4 +1,4 @@
-"""Files from elsewhere: names of thousands of letters were echoed whole, files without end took all memory."""
+"""Very long names in a file are shortened in messages, and files without an end do not fill the memory."""
 
 import json
 import os

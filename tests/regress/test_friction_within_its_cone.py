@@ -1,4 +1,4 @@
-"""Friction is never more than its share of the normal impulse, at every contact in every step."""
+"""The friction impulse is at most the friction coefficient times the normal impulse, at every contact in every step."""
 
 import numpy as np
 import pytest

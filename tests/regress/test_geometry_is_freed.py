@@ -12,7 +12,7 @@ SIDE = 200
 
 
 def ragged(seed, side=SIDE):
-    """Bars of random lengths, 4 px high: single pixels would be thousands of parts."""
+    """Return a mask of bars of random lengths, 4 px high; single pixels would give thousands of parts."""
     lengths = np.random.default_rng(seed).integers(4, side, -(-side // 4)).repeat(4)[:side]
     return PixelMask(np.arange(side) < lengths[:, None])
 
@@ -105,7 +105,7 @@ def test_a_value_that_many_share_stands_there_once():
 
 @pytest.mark.parametrize("sleeping", [True, False])
 def test_nothing_else_changes(sleeping):
-    """One world drops shapes until it tidies up, the other keeps them all in use: both go on alike."""
+    """Freeing unused geometry changes no result: a world that frees shapes and one that keeps all move equally."""
     worlds = []
     for tidy in (True, False):
         world = World() if sleeping else World(solver="projection")

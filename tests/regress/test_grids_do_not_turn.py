@@ -1,4 +1,6 @@
-"""A TileGrid cannot rotate: a call that asks for it raises; a table that says so disables the body."""
+"""A TileGrid cannot rotate: a call that would rotate it raises an error, and a rotation in the
+table disables the body.
+"""
 
 import math
 

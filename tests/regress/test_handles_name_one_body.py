@@ -1,4 +1,4 @@
-"""A Body names the same body for good: writing its id or world made it another one, silently, wherever it was kept."""
+"""A Body object always refers to the same body: its id and world cannot be written."""
 
 import copy
 

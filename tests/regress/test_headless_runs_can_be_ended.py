@@ -1,4 +1,4 @@
-"""A run without a window did not end on SIGTERM: SDL took the signal and made an event of it."""
+"""A run without a window ends on SIGTERM, which SDL would otherwise turn into an event."""
 
 import signal
 import subprocess

@@ -1,6 +1,7 @@
-"""In a heap something leans all the time: the tumbler took 128 substeps in every step, 3.6 times as long as with four.
+"""A heap takes no more substeps than its loads need; the tumbler once took 128 in every step, 3.6 times as long as
+four.
 
-More substeps than the loads need are for columns, whose bodies have one body below and one above.
+Extra substeps are only for columns, whose bodies have one body below and one above.
 """
 
 from scenes.lab.tumbler import Tumbler
@@ -9,7 +10,10 @@ from tests.stability.piles import needs_speed
 
 @needs_speed
 def test_a_drum_of_shapes_takes_32_substeps_at_most():
-    """Once it is a heap: two or three that fell aside are a column, and cost little."""
+    """A drum of shapes takes at most 32 substeps once the shapes form a heap.
+
+    Two or three bodies beside the heap may count as a column, at a low cost.
+    """
     scene = Tumbler(0)
     world = scene.world
     world.substeps = "auto"

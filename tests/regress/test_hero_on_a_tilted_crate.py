@@ -1,4 +1,4 @@
-"""The hero sank into crates, to the eye: any slope under his feet, however small, drew him down to the tiles below."""
+"""The character is drawn at its place on a slightly tilted crate, not lowered to the tiles below the crate."""
 
 from types import SimpleNamespace
 
@@ -12,7 +12,7 @@ def hero(slope):
 
 
 def level(drop):
-    """Return a replacement of the level whose tiles lie `drop` [px] below the hero's feet."""
+    """Return a stand-in for a level whose tiles lie `drop` [px] below the character's feet."""
     return SimpleNamespace(drop_to_ground=lambda x, bottom, most: min(drop, most))
 
 

@@ -1,4 +1,4 @@
-"""time_of_impact of shapes of a million pixels that turn by more than a whole turn: closed form."""
+"""time_of_impact equals the closed form for shapes of a million pixels that rotate by more than a whole turn."""
 
 import math
 
@@ -14,7 +14,10 @@ def arm(length, half):
 
 
 def turned_to(x, y, half):
-    """Fraction of the turn at which the upper edge of an arm about the origin is at a point in front of it."""
+    """Return the fraction of the rotation at which the upper edge of an arm about the origin reaches the point (x, y).
+
+    half: half of the arm's thickness.
+    """
     angle = math.atan2(y, x) % math.tau
     return (angle - math.asin(half / math.hypot(x, y))) / TURN
 

@@ -1,4 +1,4 @@
-"""An impact is reported at its place, on the side from which the body came, even if the body has moved on since."""
+"""An impact is reported at its position on the side from which the body came, even if the body has moved on since."""
 
 import math
 
@@ -30,7 +30,10 @@ CASES = (["ray", "swept", "toi"], WALLS, EFFECTS, BULLETS, [6000.0, 1260.0, 1500
 
 @pytest.mark.parametrize("way, wall, effects, bullet, speed", pairwise(*CASES))
 def test_a_bullet_tells_the_near_side(way, wall, effects, bullet, speed):
-    """Closed form, along the x axis: a ray meets with its middle, the others with their front."""
+    """The reported point of a bullet's impact equals the closed form along the x axis.
+
+    A ray hits with the centre of the body, the other modes hit with its front.
+    """
     told_on_the_near_side(way, wall, effects, bullet, speed)
 
 

@@ -1,4 +1,4 @@
-"""Ctrl-C while the program was still importing ended in a traceback of some library."""
+"""Ctrl-C while the program is importing ends it without output, not with a traceback of some library."""
 
 import signal
 import subprocess
@@ -43,7 +43,7 @@ def test_it_ends_without_a_word(module):
 
 
 def test_afterwards_it_is_an_exception_again(monkeypatch):
-    """A run in progress cleans up, and a program that called main() gets its Ctrl-C back."""
+    """After the import Ctrl-C raises KeyboardInterrupt again, during a run and for a program that called main()."""
     import game.command_line
     import main
 

@@ -1,5 +1,7 @@
-"""Bodies of one island whose cooldowns ended at different times asked for fewer substeps one after the other, each
-request was dropped, and the island never took fewer: three crates dropped by 5 cm kept 32 for ever.
+"""An island takes fewer substeps when its bodies need fewer; before the fix three crates dropped by 5 cm kept 32 for
+ever.
+
+The cooldowns of the bodies ended at different times, and each request alone was dropped.
 """
 
 from physics import Polygon

@@ -1,4 +1,6 @@
-"""Keep said that a run was kept when another file of that name was there: the run went with the next ten."""
+"""Keep stores a run under a new name if another file has its name; otherwise the run would be
+lost after ten more runs.
+"""
 
 import os
 

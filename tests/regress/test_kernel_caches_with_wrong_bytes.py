@@ -1,4 +1,4 @@
-"""A kernel cache with wrong bytes in it, at the right length or not, costs a compilation and nothing else."""
+"""A kernel cache with wrong bytes, at the right length or not, only costs a new compilation."""
 
 import os
 import subprocess
@@ -37,7 +37,7 @@ print(totals.compiled)
 
 
 def ask(folder):
-    """Return (results of the kernels, number of compiled kernels, output) of a new process."""
+    """Run the kernels in a new process. Return (their results, number of compiled kernels, output)."""
     run = subprocess.run(
         [sys.executable, "-W", "always", "-c", ASK],
         cwd=folder,
@@ -63,7 +63,7 @@ def warm(tmp_path_factory):
 
 
 def flipped(content, places):
-    """Return the content with one bit changed at each of the places, which are shares 0..1 of the length."""
+    """Return the content with one bit inverted at each position, given as a share 0..1 of the length."""
     wrong = bytearray(content)
     for share in places:
         wrong[int(share * (len(wrong) - 1))] ^= 0x10
@@ -95,7 +95,7 @@ def test_wrong_bytes_are_compiled_anew(warm, damage):
 
 
 def test_files_that_were_swapped_are_not_run(warm):
-    """Whole files, but each under another's name."""
+    """Cache files whose names were exchanged are not run; the kernels are compiled again."""
     folder, files = warm
     paths = sorted(files)
     for path, other in zip(paths, paths[1:] + paths[:1], strict=True):

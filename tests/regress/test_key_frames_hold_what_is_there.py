@@ -1,4 +1,6 @@
-"""Key frames held rows that were long gone, and long streams whole where little in them had changed."""
+"""Key frames do not contain unused table rows, and store a long byte stream as its differences
+if it changed a little.
+"""
 
 import numpy as np
 
@@ -10,7 +12,10 @@ FEW = 16_384  # bytes
 
 
 def test_rows_behind_the_end_of_a_table_are_not_kept():
-    """The tables of the shooter's traffic have room for 1,500 bodies, of which 27 are there: 20 MB of ten seconds."""
+    """Table rows behind the last used one are not stored.
+
+    In the shooter, tables had room for 1,500 bodies with 27 in use: 20 MB for ten seconds.
+    """
     scene = Arena()
     before = bytes_held([KeyFrame(scene)])
     rng = np.random.default_rng(1)
@@ -28,7 +33,11 @@ def test_rows_behind_the_end_of_a_table_are_not_kept():
 
 
 def test_a_long_stream_that_changes_a_little_is_kept_as_what_differs():
-    """zlib looks back 32 kB less a little: a chunk of just so much never saw its own place in the one before."""
+    """A long stream of bytes that changes a little is stored as its differences.
+
+    zlib looks back somewhat less than 32 kB: with a chunk of that size it never reached the same position in the
+    previous chunk.
+    """
     stream = np.random.default_rng(1).integers(0, 255, 100_000, np.uint8)
     chunks, new = Chunks([memoryview(stream.tobytes())], [0]), 0
     for turn in range(12):

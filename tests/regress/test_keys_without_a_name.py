@@ -1,4 +1,4 @@
-"""All keys that the system cannot name are one to pygame: an action could be given to every one of them at once."""
+"""A key that the system cannot name is refused as a binding, because pygame gives all such keys the same code."""
 
 import pygame
 

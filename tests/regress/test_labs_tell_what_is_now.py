@@ -1,4 +1,4 @@
-"""Verdicts of labs were taken once and stood for good: balls lay scattered under "as many leave as came"."""
+"""Verdicts of labs follow the present state; they were once computed once and then stayed on the screen."""
 
 import pytest
 
@@ -13,7 +13,7 @@ from scenes.lab.piles import SOLVERS
 
 
 def after(name, frames, source=None, **values):
-    """A lab after so many steps."""
+    """Return (scene, session) of a lab after some frames. values: {slider: value} to set before."""
     scene = Registry(SCENES).scene_class(name)(0)
     for slider, value in values.items():
         scene.change_slider(slider, value)
@@ -24,7 +24,7 @@ def after(name, frames, source=None, **values):
 
 
 def words(scene):
-    """Every line of text of the picture."""
+    """Return every line of text in the picture of a scene."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     scene.draw(canvas, 1.0)
@@ -122,7 +122,7 @@ def test_nodes_of_the_tree_are_tests():
 
 
 def test_a_column_that_settles_does_not_sway_by_nothing():
-    """It leant by a crate while its sway was told as 0.0 %: it was not looked at before two seconds had passed."""
+    """The lab of stacks shows no sway before the column has settled, after two seconds."""
     for frames, reported in ((60, False), (180, True)):
         said = words(after("lab/stacks", frames)[0])
         sways = [said[at + 1] for at, each in enumerate(said) if each == "sways"]
@@ -131,7 +131,7 @@ def test_a_column_that_settles_does_not_sway_by_nothing():
 
 
 def test_a_pair_of_cards_that_slides_does_not_stand():
-    """Half way down the word under it was still "stands"."""
+    """A pair of cards that slides is shown as "slides" or "slid apart", not as "stands"."""
     for frames, word in ((60, "slides"), (200, "slid apart")):
         said = words(after("lab/card_house", frames)[0])
         assert word in said and said.count("stands") == 1, "the pair with friction enough"
@@ -139,7 +139,7 @@ def test_a_pair_of_cards_that_slides_does_not_stand():
 
 @pytest.mark.parametrize("costs", [(1443e-9, 133e-9), (3711e-9, 54e-9), (18501e-9, 77e-9), (99999e-9, 999e-9)])
 def test_times_of_the_ladder_do_not_run_into_their_name(costs):
-    """ "hit, miss1,443, 133 ns"."""
+    """The times in lab/ladder do not overlap their name, as in "hit, miss1,443, 133 ns"."""
     canvas = Canvas()
     name, reported = (canvas.measure(text, SMALL)[0] for text in ("hit, miss", _times(*costs)))
     assert name + reported < 78 - 2, "the width of a column of figures, and a gap"

@@ -1,4 +1,4 @@
-"""A seed beyond 63 bits, on the command line or in a recording, was a traceback out of the physics."""
+"""A seed beyond 63 bits, on the command line or in a recording, gives a message and no traceback."""
 
 import json
 

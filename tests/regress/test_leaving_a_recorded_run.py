@@ -1,4 +1,4 @@
-"""With --record, leaving a game by its pause menu went on to the scene menu and dropped the recording unwritten."""
+"""With --record, leaving a game by its pause menu writes the recording and ends the program."""
 
 import pygame
 

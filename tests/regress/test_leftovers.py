@@ -1,4 +1,4 @@
-"""A program that is killed while it writes leaves a `*.part` file behind: a later one removes it, and only that."""
+"""A `*.part` file left by a program that was killed while writing is removed by a later one, and no other file is."""
 
 import os
 import subprocess
@@ -146,7 +146,7 @@ def test_a_snapshot_that_is_written_again_takes_its_own_along(tmp_path):
 
 
 def test_what_a_killed_program_leaves_is_known(tmp_path):
-    """The name that a program which is killed in the middle leaves is one that is removed."""
+    """The file that a killed program leaves has a name that the clean-up removes."""
     code = (
         "import os, signal, sys\n"
         "from game.files import data_folder\n"

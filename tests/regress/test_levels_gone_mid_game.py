@@ -1,4 +1,6 @@
-"""A level deleted while it was played: R closed the program, and a run that was won got no place in its table."""
+"""If a level is deleted while it is played, Restart gives a message, and a finished run still
+enters the high scores.
+"""
 
 import pygame as K
 

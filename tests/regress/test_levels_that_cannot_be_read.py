@@ -1,4 +1,4 @@
-"""A level that was listed and could not be read kept the player in its message: each way back led to it again."""
+"""An unreadable level gives a message from which the player gets back to the menu."""
 
 from pathlib import Path
 

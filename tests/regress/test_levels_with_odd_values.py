@@ -1,4 +1,4 @@
-"""A level whose properties or tiles were no list, or whose compression was one, ended in a TypeError."""
+"""A level with a wrong type for properties, tiles or compression gives a message, not a TypeError."""
 
 import base64
 import copy
@@ -16,7 +16,7 @@ ODD = (None, True, -1, 0, 10**30, 0.5, float("nan"), "", "odd", [], [None], [[]]
 
 
 def places(value, place=()):
-    """Yield the places of values in a nested structure: keys and numbers from the top."""
+    """Yield the positions of all values in a nested structure, as tuples of keys and indices from the top."""
     yield place
     inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, each in inside:

@@ -1,7 +1,7 @@
-"""A world restored from a file, in a process that had built none, stepped forty times slower for as long as it lived.
+"""A world restored from a file steps as fast as any other; it was forty times slower in a process without other worlds.
 
-The arrays of an .npz have types that equal those of the tables and are others; kernels that met them first looked the
-types up at every call.
+The arrays of an .npz file have dtypes that equal those of the tables but are other objects. Kernels that met them first
+looked the types up at every call.
 """
 
 from physics import Circle, Effects, Polygon, Snapshot, World

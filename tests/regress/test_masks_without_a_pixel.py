@@ -1,4 +1,6 @@
-"""A mask without pixels has no mass: as the only shape of a dynamic body it fell, and its inertia was 0."""
+"""A mask without pixels cannot be the only shape of a dynamic body; before the fix such a body fell with an inertia of
+0.
+"""
 
 import numpy as np
 import pytest

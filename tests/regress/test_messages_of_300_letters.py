@@ -1,4 +1,4 @@
-"""Names in files and on the command line may have thousands of letters: what is shown of them is cut at 300."""
+"""Messages show at most 300 letters of a name from a file or the command line."""
 
 import json
 import sys

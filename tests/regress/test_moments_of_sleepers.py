@@ -1,4 +1,4 @@
-"""A snapshot of a sleeping world was stepped awake, because its own solver was set again, which wakes all bodies."""
+"""A snapshot of a sleeping world is stepped asleep; setting its own solver again would wake all bodies."""
 
 from game.measure.moment import Moment
 from physics import Effects, Polygon, World

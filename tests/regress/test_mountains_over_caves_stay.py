@@ -1,6 +1,6 @@
-"""The lander's third site is in a cave that is closed by ice on both sides: nothing else held the mountain over it.
+"""The mountain over the cave at the lander's third site stays when the ice that closes the cave is shot away.
 
-With both plugs shot away, as by the bot on three seeds of eight, 900 px of mountain fell on the pad.
+With both plugs shot away, as by the bot for three seeds of eight, 900 px of mountain fell on the pad.
 """
 
 import pytest

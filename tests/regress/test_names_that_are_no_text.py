@@ -1,4 +1,4 @@
-"""Copying the path of a file whose name is no valid text stopped the program."""
+"""Copying the path of a file whose name is not valid text does not stop the program."""
 
 import pygame
 

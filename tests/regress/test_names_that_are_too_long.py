@@ -1,4 +1,4 @@
-"""A file name that the system does not accept ended the program with a traceback; now each place reports it."""
+"""A file name that the system does not accept gives a message in every part of the program, not a traceback."""
 
 from pathlib import Path
 

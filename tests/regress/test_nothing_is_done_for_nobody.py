@@ -1,4 +1,4 @@
-"""A stage that nothing needs is not there, and a test that is not made is not counted."""
+"""Stages without work are not in the plan, and counters count only tests that are made."""
 
 import copy
 
@@ -54,7 +54,9 @@ def test_what_is_done_for_characters_is_there_while_there_is_one(name):
 
 @pytest.mark.parametrize("stacking", [False, True])
 def test_boxes_alone_are_no_narrow_test(stacking):
-    """Overlaps of boxes are contacts, those with sensors are told, and nothing looked closer."""
+    """Without a narrow phase, overlapping boxes are contacts, those with sensors are reported, and no narrow test is
+    counted.
+    """
     effects = Effects(narrowphase=False, sensors=True, response=stacking, stacking=stacking)
     world = World(effects, gravity=(0, 0))
     for k, shape in enumerate((Circle(5), Polygon.box(8, 8), Bounds(Circle(5)), PixelMask.from_array([[1] * 9] * 9))):

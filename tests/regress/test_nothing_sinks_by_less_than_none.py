@@ -1,5 +1,6 @@
-"""A tower that stood a thousandth of a pixel higher than it was put sank by "-0.00 px" on the page of lab/mask_stack,
-and so would a column of lab/stacks."""
+"""A tower that stands slightly above its start is not shown as sinking by "-0.00 px" in
+lab/mask_stack or lab/stacks.
+"""
 
 import pytest
 

@@ -1,7 +1,9 @@
-"""A force, a mass or a radius that was not finite reached the whole heap in one step, and a sweep of it ended Python.
+"""A force, mass or radius that is not finite disables its body only; before the fix it reached the whole heap in one
+step.
 
-Positions and velocities alone were checked. 0.1.0 also hung in a character's `climb` of 1e308, read past its arrays for
-a radius of NaN, and raised "math domain error" in a query about a body whose angle is infinite.
+Only positions and velocities were checked, and a sweep of such a body ended Python. Version 0.1.0 also hung for a
+character's `climb` of 1e308, read past its arrays for a radius of NaN, and raised "math domain error" in a query about
+a body with an infinite angle.
 """
 
 import math

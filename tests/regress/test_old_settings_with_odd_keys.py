@@ -1,4 +1,4 @@
-"""A settings file of the first version whose keys held anything but text stopped the program at its start."""
+"""A settings file of the first version with values other than text as keys does not stop the program."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Another gravity, wind or drag wakes the bodies at rest under the old one; a change without effect wakes none."""
+"""Changes of gravity, wind or drag wake the bodies that rest under them; a change without effect wakes none."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""With a closed standard error a mistake ended in exit code 1 without a message; a full disk ended in a traceback."""
+"""A mistake with closed standard error has a proper exit code, and a full disk gives a message, not a traceback."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""--record . was a traceback at the end of the run; a folder as the output file was only said after all was played."""
+"""An output file that cannot be written, such as a folder, is reported at the start of the run."""
 
 import pytest
 

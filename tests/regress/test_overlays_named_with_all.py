@@ -1,4 +1,4 @@
-"""--overlay bounds,all and none,bounds were accepted, and the word beside the names did nothing."""
+"""`--overlay bounds,all` and `none,bounds` are refused, because "all" and "none" cannot be combined with names."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""lab/ladder's cells were put back over the overlays: its boxes were drawn and never seen."""
+"""Overlays are visible over the cells of lab/ladder, which were once drawn on top of them."""
 
 import pygame
 import pytest

@@ -1,4 +1,7 @@
-"""A level of 400 KB was unpacked into 1.2 GB: a layer is unpacked up to the bytes that its map can hold."""
+"""A layer of a level is unpacked only up to the bytes that its map can hold.
+
+A level of 400 KB was once unpacked into 1.2 GB.
+"""
 
 import base64
 import copy
@@ -20,7 +23,7 @@ MEMORY = 2_000_000  # bytes that reading may take beside the file's text
 
 
 def packed(raw, compression, more=b""):
-    """Return LEVEL with one layer of these bytes. more: bytes that follow them in the file."""
+    """Return LEVEL with one layer made of these bytes. more: bytes that follow the packed ones in the file."""
     level = copy.deepcopy(LEVEL)
     data = PACKERS[compression](raw) + more
     level["layers"][0] |= {"encoding": "base64", "compression": compression, "data": base64.b64encode(data).decode()}
@@ -28,7 +31,7 @@ def packed(raw, compression, more=b""):
 
 
 def peak_of(call):
-    """Return (result or error of a call, greatest memory that it took [bytes])."""
+    """Return (result or FileError of a call, greatest memory that it used [bytes])."""
     tracemalloc.start()
     try:
         try:

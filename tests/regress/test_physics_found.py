@@ -1,4 +1,4 @@
-"""One small scene per defect that the first hostile tests found, named by what must hold."""
+"""Regression tests of the physics, one small scene for each defect that the first hostile tests found."""
 
 import math
 
@@ -202,8 +202,10 @@ def test_zero_step_keeps_bouncing_bodies_as_they_are():
 
 
 def test_motion_rectangles_of_masks_are_where_they_are_drawn_and_no_wider():
-    """They once had a pixel to spare on every side: nine candidates in a hundred for nothing. What moves may be met
-    by what it will meet in the steps to come."""
+    """Swept boxes of masks equal the drawn masks without an extra pixel, which cost nine candidates in a hundred.
+
+    The box of a moving mask may also cover its motion in later steps.
+    """
     rng = np.random.default_rng(4)
     solid, speeds = np.ones((7, 9), bool), rng.choice([0.0, 25.0, -90.0, 300.0], (60, 2))
     speeds[:30] = 0.0

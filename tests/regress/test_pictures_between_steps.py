@@ -1,6 +1,7 @@
-"""A window shows interpolated states. Lanes were empty there if their cameras were not notified of the step.
+"""A window shows states interpolated between steps, and all lanes are visible then.
 
-A headless run draws at the last step's poses, so this was invisible in every screenshot.
+Lanes were empty if their cameras were not notified of the step. A headless run draws the poses of the last step, so no
+screenshot showed this.
 """
 
 import numpy as np
@@ -19,7 +20,7 @@ SPARE = 2.0  # of 255: what animations may add, on average over a view
 
 
 def played(name, frames):
-    """The scene by its bot, after each of the frames and the one before: (scene before, frame) by deep copies."""
+    """Yield (scene, frame) after each frame that a scene is played by its bot."""
     scene = REGISTRY.scene_class(name)(0)
     session = Session(scene, BotSource())
     for frame in range(1, frames + 1):
@@ -35,7 +36,7 @@ def picture(scene, alpha):
 
 
 def apart(one, other, view):
-    """Mean difference of two pictures within a view, of 255."""
+    """Return the mean difference of two pictures within a view, on a scale of 255."""
     left, top, width, height = view
     box = slice(left, left + width), slice(top, top + height)
     return float(np.abs(one[box] - other[box]).mean())
@@ -43,7 +44,7 @@ def apart(one, other, view):
 
 @pytest.mark.parametrize("name", REGISTRY.names)
 def test_cameras_are_where_they_were_at_alpha_zero(name):
-    """At alpha 0 a camera shows what it showed at the end of the step before, at 1 what it shows now."""
+    """A camera shows the end of the previous step at alpha 0 and the end of the last step at alpha 1."""
     before = {}
     for scene, frame in played(name, 60):
         for number, (_, camera) in enumerate(scene.views()):
@@ -56,7 +57,7 @@ def test_cameras_are_where_they_were_at_alpha_zero(name):
 
 @pytest.mark.parametrize("name", REGISTRY.names)
 def test_halfway_is_between_the_ends(name):
-    """The picture at alpha 0.5 is no further from either step's than these two are from each other."""
+    """The picture at alpha 0.5 differs from those at 0 and 1 by no more than these differ from each other."""
     last = None
     for scene, frame in played(name, max(FRAMES)):
         if frame in FRAMES:

@@ -1,4 +1,4 @@
-"""A PNG was decoded before its size was asked for: the header is read first, and no larger picture is decoded."""
+"""A PNG larger than the limit is not decoded, because its size is read from the header first."""
 
 import struct
 import zlib
@@ -19,13 +19,13 @@ def chunk(kind, content):
 
 
 def png(width, height, kind=b"IHDR"):
-    """A file whose header names a size; its pixels are not looked at."""
+    """Return the bytes of a PNG file whose header states a size; the pixel data is not valid."""
     head = chunk(kind, struct.pack(">2I5B", width, height, 8, 6, 0, 0, 0))
     return SIGNATURE + head + chunk(b"IDAT", zlib.compress(bytes(64))) + chunk(b"IEND", b"")
 
 
 def other(kind):
-    """A picture of another format, as pygame writes it."""
+    """Return the bytes of a picture in another format, as pygame writes it. kind: file extension."""
     from io import BytesIO
 
     file, picture = BytesIO(), pygame.Surface((8, 8))

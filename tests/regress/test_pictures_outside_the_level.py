@@ -1,4 +1,4 @@
-"""A level could name any picture of the machine: its own stay in its folder, the game's are found by their names."""
+"""A level can use only pictures of the game, found by name, and pictures in its own folder."""
 
 import os
 import shutil
@@ -17,7 +17,7 @@ from tests.scenes.test_platformer_maps import save, small
 
 @pytest.fixture
 def folder(tmp_path):
-    """Return a folder levels/ beside a private picture."""
+    """Return a folder levels/ next to a picture that levels must not use."""
     made = tmp_path / "levels"
     (made / "art").mkdir(parents=True)
     shutil.copy(IMAGES / "tiles.png", tmp_path / "secret.png")

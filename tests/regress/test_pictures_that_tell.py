@@ -1,5 +1,5 @@
-"""Faults that were visible: overlays over the score, keys across the picture, figures of one slow step, names in
-bits.
+"""Regression tests of visible defects: overlays over the score, keys across the picture, times of one slow step, cut
+names.
 """
 
 import re
@@ -34,7 +34,10 @@ pytestmark = pytest.mark.usefixtures("nothing_is_measured")
 
 
 def screen(name, frames=30, layers=(), person=True, hint=False):
-    """A scene that is played."""
+    """Return a screen (`Play`) with a scene that has been played for some frames.
+
+    person: True if a person plays, False for the bot. hint: True shows the hint of the first start.
+    """
     scene = REGISTRY.scene_class(name)(0)
     settings = Settings()
     settings.hint_seen = not hint
@@ -277,7 +280,7 @@ def test_a_lab_that_is_over_offers_another_run(name, ends):
 
 
 def test_all_layers_are_there():
-    """Every layer of a file layer_*.py is in the list, once."""
+    """Every layer class of a file layer_*.py is in the list LAYERS once."""
     modules = [import_module(f"game.overlays.{path.stem}") for path in (ROOT / "game/overlays").glob("layer_*.py")]
     there = {each for module in modules for each in vars(module).values() if isinstance(each, type)}
     assert {each for each in there if issubclass(each, Layer)} - {Layer} == set(LAYERS)

@@ -1,4 +1,6 @@
-"""After the end of a game, looking at another window or the panel's Restart led past the result: its place was lost."""
+"""A finished game still enters the high scores if the window loses focus, the pad is lost or Restart is chosen in the
+panel.
+"""
 
 import pygame as K
 

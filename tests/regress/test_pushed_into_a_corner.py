@@ -1,7 +1,7 @@
-"""A body that a moving corner pushes ahead stays in front of both its sides.
+"""A small body pushed by a moving inner corner of a room stays inside both walls.
 
-Only the first side that met it was examined. A side that had pushed far enough, and still met it first, hid the other,
-and a small body in the corner of a rotating room came out through it.
+Before the fix, only the wall that met it first was examined. This wall hid the other one, even after it had pushed far
+enough, and the body came out through the other.
 """
 
 import math
@@ -20,7 +20,7 @@ STEPS = 3
 def gets_out(solver, velocity, turn, place, angle, beside, spin):
     """Return whether a box gets out of a room that moves and rotates.
 
-    place: position of the box relative to the corner [px]; beside: its velocity relative to that of the room [px/s].
+    place: position of the box relative to the corner [px]. beside: its velocity relative to that of the room [px/s].
     """
     effects = Effects(response=True, rotation=True, friction=True, stacking=True, continuous=True)
     world = World(effects, solver=solver, substeps=1)

@@ -1,5 +1,7 @@
-"""A body that stepped into a wall past its middle was pushed out on the far side, with nothing to slow it: moved by a
-contact that no event reported, because at the end of the step they were apart and no impulse had acted.
+"""A body that is pushed through a wall past its middle has a begin event.
+
+It was pushed out on the far side without an impulse and was separate at the end of the step, so no event reported the
+contact.
 """
 
 import pytest
@@ -9,7 +11,7 @@ from physics import Circle, Effects, Polygon, World
 
 @pytest.mark.parametrize("aside", [11.0 - 0.9 * k for k in range(29)])
 def test_every_pair_that_is_pushed_apart_is_told(aside):
-    """Its end is rounded: apart by a bit, or in by one, depending on the coordinates."""
+    """Every pair that is pushed apart has a begin event; rounding leaves it just separate or just overlapping."""
     world, y = World(Effects(response=True)), 960.0 + aside
     wall = world.add_body(Polygon.box(1.0, 22.0), position=(0.0, 960.0), kind="static")
     disc = world.add_body(Circle(5.0), position=(-8.0, y), velocity=(600.0, 0.0))

@@ -1,5 +1,6 @@
-"""A character moves in whole pixels: a sleeping body at a small distance was pushed without waking, and jerked when it
-woke.
+"""A sleeping body that a character pushes is woken; before the fix it was pushed asleep and jerked when it woke.
+
+A character moves in whole pixels, so the body could be at a small distance.
 """
 
 import pytest
@@ -10,7 +11,7 @@ HALF = 8.0  # [px] of a crate
 
 
 def asleep(place):
-    """A world with a floor and a crate that sleeps there."""
+    """Return (world, crate) with a sleeping crate at x = place on a floor."""
     world = World(Effects.rigid_bodies())
     world.add_body(Polygon.box(400, 20), position=(0.0, 30.0), kind="static")
     crate = world.add_body(Polygon.box(2 * HALF, 2 * HALF), position=(place, 20.0 - HALF))

@@ -1,4 +1,4 @@
-"""A pygame Mask or Surface is no array of bool: NumPy would read its words without an error."""
+"""A pygame Mask or Surface is refused as an array of bool; NumPy would read its memory without an error."""
 
 import numpy as np
 import pygame
@@ -11,7 +11,7 @@ SURFACE = pygame.Surface((8, 8), pygame.SRCALPHA)
 
 
 class OwnMask(pygame.Mask):
-    """A subclass is one too."""
+    """A subclass of pygame.Mask, which is refused too."""
 
 
 @pytest.mark.parametrize(

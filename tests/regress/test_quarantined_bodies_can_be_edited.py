@@ -1,4 +1,4 @@
-"""Changes of a disabled body affect no other: it has no place in the broad phase to write to."""
+"""Changes of a disabled body affect no other body: it has no slot in the broad phase."""
 
 import math
 
@@ -24,7 +24,7 @@ EDITS = {
 
 
 def crowd(effects, strategy=SpatialHashGrid):
-    """Fill all slots of the broad phase with shapes, so that the last slot is in use."""
+    """Return a world whose shapes fill all slots of the broad phase, including the last."""
     world = World(effects, strategy())
     world.add_body(Polygon.box(600, 20), position=(150, 40), kind="static")
     while len(world.pairs.free) or len(world.bodies) < 2:

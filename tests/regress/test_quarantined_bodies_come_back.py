@@ -1,4 +1,4 @@
-"""restore() takes a quarantined body back for good: it falls, lands and is met again, in worlds with sleeping too."""
+"""restore() makes a quarantined body active again: it falls, lands and collides, in sleeping worlds too."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Queries about rotated masks left ids of rasters that were freed with them; the clean-up failed on those."""
+"""Freeing unused rasters works after queries about rotated masks; before the fix it failed on ids of freed rasters."""
 
 from math import pi
 

@@ -1,6 +1,6 @@
-"""A recording of a few bytes could ask for all memory, or end in a traceback: repeats, pointers, level names.
+"""A small recording cannot exhaust the memory or cause a traceback by its repeats, pointers, level names or dates.
 
-Dates and points without end made a line of text that took gigabytes to draw.
+Dates and numbers of points of any length once made a line of text that took gigabytes to draw.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""The record of the benchmarks weighed numba on the disk where there was none: PackageNotFoundError, and no record."""
+"""The benchmark record is written in an environment without numba; it once raised PackageNotFoundError for its size."""
 
 from importlib import metadata
 
@@ -9,7 +9,7 @@ from tests.bench import record
 
 @pytest.fixture
 def without(monkeypatch):
-    """Return a function that makes the distributions with some names absent."""
+    """Return a function that hides the distributions with these names from importlib.metadata."""
     there = metadata.distribution
 
     def leave_out(*names):

@@ -1,4 +1,4 @@
-"""A replay that stands still at 0:00 showed a black picture: the iris of the first life was closed there."""
+"""A replay paused at 0:00 shows the scene; it was once black, because the opening iris was closed there."""
 
 import pygame
 import pytest
@@ -20,7 +20,7 @@ LEAST = 0.5  # of the picture's light a little later
 
 
 def light(picture, watch):
-    """Mean of the game's picture, 0..255; the controls lie below."""
+    """Return the mean brightness of the game's picture, 0..255, without the controls below it."""
     frame = watch.draw(picture)
     area = pygame.Rect(0, frame.rect.height // 6, frame.rect.width, frame.rect.height // 2)
     return float(pygame.surfarray.array3d(frame.surface.subsurface(area)).mean())

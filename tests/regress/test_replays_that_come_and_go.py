@@ -1,7 +1,7 @@
-"""A replay that was gone once it was listed, or a link to nowhere, stopped the program when the replays were opened.
+"""A replay that disappears after listing, or a broken link, does not stop the program when the replays are opened.
 
-In recent/, a link or a folder made every kept run look as if it could not be kept; and where the clock had been set
-back, the run just played was the oldest, and went.
+A link or folder in recent/ does not make runs look as if they could not be kept. If the clock was set back, the latest
+run is not removed as the oldest.
 """
 
 import os
@@ -11,7 +11,7 @@ from tests.game.test_replay import record
 
 
 class Recorded:
-    """As much of a Recorder as the shelf asks of it."""
+    """Stand-in for a Recorder with the attributes that the replay shelf reads."""
 
     frames = SHORTEST
     head = {"scene": "arena"}

@@ -1,4 +1,4 @@
-"""Defects that were found in the rigid-body core, each by the smallest scene that showed it."""
+"""Regression tests of the rigid-body core, each with the smallest scene that showed the defect."""
 
 import numpy as np
 
@@ -6,7 +6,10 @@ from physics import Effects, Material, Polygon, World
 
 
 def test_snapshot_of_another_kind_of_solver_is_stepped_with_unit_normals():
-    """Contacts of projection have no anchors: taken for kept manifolds they had normals of length 0."""
+    """A snapshot of projection steps under soft_step with normals of length 1.
+
+    Contacts of projection have no cache entries; taken for recycled manifolds they had normals of length 0.
+    """
     world = World(Effects.rigid_bodies(), solver="projection")
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     world.add_body(Polygon.box(20, 20), position=(0, -9.9))
@@ -40,7 +43,7 @@ def test_a_snapshot_of_sleepers_brings_its_solver_and_wakes_under_another():
 
 
 def test_belt_carries_without_a_stacking_solver_too():
-    """The effect conveyor was declared, and nothing ran."""
+    """A conveyor surface carries a box under a solver without stacking, too."""
     for conveyor in (True, False):
         world = World(Effects(response=True, gravity=True, friction=True, conveyor=conveyor))
         world.add_body(Polygon.box(2000, 20), position=(0, 10), kind="static", material=Material(surface_speed=60.0))

@@ -1,4 +1,6 @@
-"""A query after a removal reused old rows, in which a body had been disabled: the next one read beyond the table."""
+"""A query after a removal uses current rows; before the fix it read old rows, and the next one
+read beyond the table.
+"""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Two screenshots in one second were one: the second was written over the first."""
+"""Two screenshots in one second are two files; the second once overwrote the first."""
 
 import pygame as K
 

@@ -1,4 +1,4 @@
-"""The ids of shapes after the 2^31st were negative numbers among the candidates, without an error."""
+"""Shape ids beyond 2^31 raise an error; before the fix they were negative numbers among the candidates."""
 
 import pytest
 

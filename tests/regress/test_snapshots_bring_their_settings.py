@@ -1,4 +1,4 @@
-"""A snapshot is of a world with its settings: those that may change come back with it, one that may not refuses it."""
+"""restore() also restores the settings of the world; a snapshot with another fixed setting is refused."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Snapshot.save overwrote the existing file: on a full disk the old snapshot was lost with the new one."""
+"""On a full disk Snapshot.save keeps the existing file; before the fix the old snapshot was lost with the new one."""
 
 import pytest
 

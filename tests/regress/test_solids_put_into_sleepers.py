@@ -1,5 +1,6 @@
-"""A body that is added, grown, made solid or accepted into a sleeping body wakes it; one that does not touch it does
-not.
+"""A body that comes to overlap a sleeping body by an edit wakes it; one that does not touch it does not.
+
+The edits: it is added, enlarged, made solid, or accepted by a filter.
 """
 
 import numpy as np
@@ -96,7 +97,7 @@ def test_what_stands_beside_or_only_senses_wakes_nobody():
 
 
 def test_a_shape_added_to_a_body_that_is_awake_is_met():
-    """Its new shapes take part at once, though their body is not taken into the step anew."""
+    """Shapes added to an awake body collide at once, in the same set of awake bodies."""
     for way in ("set_shapes", "add_shape"):
         world = World()
         world.add_body(Polygon.box(4000, 20), position=(0, 200), kind="static")

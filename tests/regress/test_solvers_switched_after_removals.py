@@ -1,4 +1,6 @@
-"""A solver without sleeping, chosen after a removal: the broad phase continued to pair removed shapes."""
+"""A solver without sleeping chosen after a removal works; before the fix the broad phase still
+paired removed shapes.
+"""
 
 import pytest
 

@@ -1,4 +1,6 @@
-"""`squeezed` is reported in every move while a crushing body is in the character, whether the body moves or rests."""
+"""`squeezed` is reported in every move in which a kinematic body overlaps the character, whether the body moves or
+rests.
+"""
 
 import math
 
@@ -20,9 +22,10 @@ TOUCHES = 3.0  # [px] in a body that is no box, a character may be by its feet a
 
 
 def crushed(effects, hero, crusher, speed, down, stop, up, times=1):
-    """Return a tuple for each step: (all moves report squeezed, none does, depth in the crusher [px], side).
+    """Return a tuple for each step: (all moves report squeezed, no move does, depth in the crusher [px], head).
 
-    side: whether the lower side of the crusher is above the middle of the character.
+    The crusher moves at `speed` for `down` steps, rests for `stop` and moves back for `up`. head: whether its lower
+    side is above the middle of the character. times: number of moves in each step.
     """
     world = World(effects)
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
@@ -57,7 +60,10 @@ def test_it_is_told_without_a_gap(effects, hero, crusher):
 @pytest.mark.parametrize("hero", HEROES)
 @pytest.mark.parametrize("speed", [2.0, 10.0, 47.0])
 def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
-    """Closed form: the box keeps to the pixel grid, and its lower side is below the hero's head."""
+    """A box crusher squeezes the character exactly while they share a pixel.
+
+    Closed form: the character is on the pixel grid, and the lower side of the box is below its head.
+    """
     down = round(16.0 / speed * 60)
     found = crushed(EFFECTS["plain"], hero, "box", speed, down, 10, down // 2)
     assert any(each[0] for each in found) and found[-1][1]
@@ -73,7 +79,7 @@ def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
 
 
 def test_it_is_told_once_more_after_it_left_between_two_moves():
-    """A crusher that has moved on since the last move is reported by the next one, as before, and by no more."""
+    """A crusher that has left since the last move is reported by the next move, and by no later one."""
     world = World(EFFECTS["plain"])
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     hero = Character(world, HEROES["box"], (0, -10))

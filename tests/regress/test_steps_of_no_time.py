@@ -1,4 +1,4 @@
-"""step(0) moves nothing and uses nothing up: forces and targets are there for the next step, under every solver."""
+"""step(0) moves nothing and keeps forces and targets for the next step, under every solver."""
 
 import pytest
 

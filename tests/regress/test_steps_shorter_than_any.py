@@ -1,5 +1,7 @@
-"""world.step(5e-324) raised ZeroDivisionError: a fraction of it was 0. A step shorter than any clock resolves counts as
-a step of no time.
+"""A step too short for any clock counts as a step of length 0; before the fix world.step(5e-324) raised
+ZeroDivisionError.
+
+A fraction of this length is 0.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""A recording that begins at a restart holds the substeps chosen before it: it did not, and its replay diverged."""
+"""A recording that begins at a restart contains the substeps chosen before; otherwise its replay diverged."""
 
 from game.command_line import run
 from game.registry import Registry

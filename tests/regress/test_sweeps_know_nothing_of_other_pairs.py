@@ -1,5 +1,6 @@
-"""The result of a sweep depends on its pair alone, not on the contents of the workspace: a restored or copied world has
-another workspace, and must continue to the same bit.
+"""The result of a sweep depends only on its pair, not on earlier contents of the workspace.
+
+A restored or copied world has another workspace and must continue to the same bit.
 """
 
 import numpy as np
@@ -13,7 +14,9 @@ SLACK = 0.16  # [px]
 
 @kernel
 def sweep(count, other_count, half, slack, workspace):
-    """Return the sweep of two sharp hulls that are stored in the workspace."""
+    """Return the sweep result of two sharp hulls whose corners are in the workspace. count, other_count: numbers of
+    corners.
+    """
     return sweep_hull(Mover(count, 0.0, half, slack), 0.0, other_count, 0.0, workspace)
 
 

@@ -1,4 +1,4 @@
-"""The upper half of a line of text stood above the bar of rewind, the lower under it."""
+"""The rewind bar does not cut a line of text in two."""
 
 import pygame
 import pytest

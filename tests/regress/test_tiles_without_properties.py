@@ -1,4 +1,4 @@
-"""A solid layer may use any tile of its tileset: one that the tileset says nothing of was a KeyError."""
+"""A solid layer may use a tile without properties in its tileset; it once raised a KeyError."""
 
 import json
 import subprocess
@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def with_tile(number, listed):
-    """Return a level with tile `number` once in its solid layer, and properties of the `listed` tiles only."""
+    """Return a level with tile `number` once in its solid layer, and with properties for the `listed` tiles only."""
     level = small()
     tileset = level["tilesets"][0] = dict(level["tilesets"][0])
     tileset["tiles"] = [tile for tile in tileset["tiles"] if tile["id"] in listed]

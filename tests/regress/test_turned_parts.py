@@ -1,4 +1,4 @@
-"""A body of several shapes, stopped at its time of impact, is at an unforeseen angle: its mask is drawn there, too."""
+"""A rotating body of several shapes, stopped at its time of impact, has its mask rasterised at the angle reached."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Two windows of the game were open: the second to save its high scores dropped those of the first."""
+"""With two windows open, saving the high scores of one keeps those of the other."""
 
 from game.files.records import Entry, load_records
 

@@ -1,4 +1,4 @@
-"""A user without a home folder, as services and containers have them, got a traceback at the start."""
+"""The program starts for a user without a home folder, as in services and containers."""
 
 from pathlib import Path
 

@@ -1,7 +1,7 @@
-"""A body is fast when a step takes its centre further than its surface is away, whatever its shape.
+"""A body is fast if a step moves its centre further than the distance from the centre to its nearest edge.
 
-The test compared the path with half of the least width. A triangle's centre is nearer to its base than that. So a step
-of 0.36 sides, not swept, took it to the other side of ground that is met from one side only.
+Half of the least width is wrong: a triangle's centre is nearer to its base. A step of 0.36 sides, not swept, moved it
+to the other side of one-sided ground.
 """
 
 import math

@@ -1,4 +1,6 @@
-"""The lander's wind was a blue number on a dark glass, through which snow shone: half of it could not be read."""
+"""The lander's wind reading is legible in front of snow; the dark panel behind the number once let the snow show
+through.
+"""
 
 from game.overlays.stack import Overlays
 from game.run.picture import Picture
