@@ -1,4 +1,6 @@
-"""A pygame program whose groupcollide(..., collide_mask) is replaced by the physics package. Run it: it checks."""
+"""A pygame program in which the physics package replaces groupcollide(..., collide_mask); run
+it to compare the hits.
+"""
 
 import pygame
 
@@ -8,7 +10,7 @@ BULLET, ENEMY = 1, 2
 
 
 class Plane(pygame.sprite.Sprite):
-    """A sprite as any pygame program has it: an image and a rect."""
+    """A sprite with an image and a rect, as in any pygame program."""
 
     def __init__(self, color, corner, size=(40, 32)):
         super().__init__()
@@ -18,20 +20,20 @@ class Plane(pygame.sprite.Sprite):
 
 
 def make_groups():
-    """12 bullets and 30 enemies on a field."""
+    """Return (bullets, enemies): groups of 12 bullets and 30 enemies on a field."""
     bullets = pygame.sprite.Group(*(Plane("white", (17 * k, 31 * k % 190), (8, 14)) for k in range(12)))
     enemies = pygame.sprite.Group(*(Plane("red", (53 * k % 211, 37 * k % 173)) for k in range(30)))
     return bullets, enemies
 
 
 def hits_the_old_way(bullets, enemies):
-    """What pygame offers: every bullet against every enemy."""
+    """Return the set of (bullet, enemy) hits by pygame, which tests every bullet against every enemy."""
     hits = pygame.sprite.groupcollide(bullets, enemies, False, False, pygame.sprite.collide_mask)
     return {(bullet, enemy) for bullet, others in hits.items() for enemy in others}
 
 
 def enter(world, sprites, filter):
-    """Once, for every sprite."""
+    """Add a body for every sprite, once at the start."""
     for sprite in sprites:
         sprite.body = world.add_body(
             PixelMask.from_surface(sprite.image, origin=(0, 0)),
@@ -42,7 +44,7 @@ def enter(world, sprites, filter):
 
 
 def hits_in_a_world(world, sprites):
-    """In every frame."""
+    """Move the bodies to the sprites in every frame, step the world, and return the set of (bullet, enemy) hits."""
     world.move([sprite.body for sprite in sprites], [sprite.rect.topleft for sprite in sprites])
     world.step()
     return set(world.touching(users=True))

@@ -1,7 +1,9 @@
-"""How the project is built: setuptools, on a staged copy in which all packages lie in `hitbox` (see layout.py).
+"""Build backend of the project: setuptools, run on a staged copy in which all packages are inside `hitbox` (see
+layout.py).
 
-It lies here because it is no part of the program: a wheel does not have it, a source distribution does. An editable
-install is setuptools' own, of the checkout as it is: its names are `physics`, `game`, `scenes`, `assets` and `main`.
+It is in .ci because it is no part of the program: a source distribution contains it, a wheel does not. An editable
+install is made by setuptools from the unchanged checkout; its module names are `physics`, `game`, `scenes`, `assets`
+and `main`.
 """
 
 import contextlib
@@ -25,7 +27,7 @@ prepare_metadata_for_build_editable = build_meta.prepare_metadata_for_build_edit
 
 
 def get_requires_for_build_wheel(config_settings=None):
-    """Return what is needed besides [build-system] requires: nothing."""
+    """Return the requirements besides [build-system] requires: none."""
     return []
 
 
@@ -33,7 +35,9 @@ get_requires_for_build_sdist = get_requires_for_build_editable = get_requires_fo
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """Build the wheel of hitbox.*; return its file name. Raises LayoutError where a name of the checkout is left."""
+    """Build the wheel of hitbox.* and return its file name. Raises LayoutError if a module name of the checkout
+    remains.
+    """
     wheels = Path(wheel_directory).resolve()
     with _working_folder() as staged:
         stage(ROOT, staged)
@@ -41,7 +45,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
-    """Write the wheel's metadata; return the name of their folder."""
+    """Write the wheel's metadata and return the name of its folder."""
     folder = Path(metadata_directory).resolve()
     with _working_folder() as staged:
         stage_metadata(ROOT, staged)
@@ -49,7 +53,7 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """Build the source distribution, from which the same wheel is built; return its file name."""
+    """Build the source distribution and return its file name; a wheel built from it is the same."""
     folder = Path(sdist_directory).resolve()
     with _working_folder() as copy:
         for name in KEPT:
@@ -63,6 +67,6 @@ def build_sdist(sdist_directory, config_settings=None):
 
 @contextlib.contextmanager
 def _working_folder():
-    """A new folder that is the current one as long as the context lasts."""
+    """Make a temporary folder the current one within a with block, and return its path."""
     with tempfile.TemporaryDirectory(prefix="hitbox-build-") as folder, contextlib.chdir(folder):
         yield Path(folder)

@@ -1,23 +1,23 @@
-"""The layout of a wheel: what lies side by side in a checkout lies in one package there, `hitbox`.
+"""Layout of a wheel: the five top-level packages and modules of a checkout become one package, `hitbox`.
 
-Installed as they are named here, the five top-level names would hide a user's own `physics.py` or `game/`. So `stage`
-copies the sources into hitbox/ with their imports rewritten, line for line, and stops where a name is left that means a
-top-level package of the checkout: each string that names one must be derived from `__name__` or `__package__`.
+Installed under their own names, they would hide a user's own `physics.py` or `game/`. So `stage` copies the sources
+into hitbox/ and rewrites their imports without changing line numbers. It raises an error if a name of a top-level
+package of the checkout remains: each string that names one must be derived from `__name__` or `__package__`.
 
-An import is rewritten, wherever it stands:
+An import is rewritten at any position in a source:
     from physics import World           from hitbox.physics import World
     import physics                      from hitbox import physics
     import physics.jit as jit           import hitbox.physics.jit as jit
     import physics.jit                  from hitbox import physics; __import__("hitbox.physics.jit")
 Comments, docstrings and relative imports stay as they are. These are refused (see `problems`):
     "game.run.worker", "scenes:SCENES"  a dotted name, or an entry point, within any other string
-    f"game.{name}", "game." + name      the beginning of a dotted name that something is put behind
+    f"game.{name}", "game." + name      the beginning of a dotted name to which something is appended
     "import physics", "from game import x"  code to be run
     "python -m game"                    a module to run; also as an item, ["-m", "game"]
-    import_module("game")               a name alone, where modules are asked for: IMPORTERS, sys.modules[...]
+    import_module("game")               a single name as an argument of IMPORTERS or in sys.modules[...]
     "python main.py", "pip install -e"  a command that only a checkout has
-Text files (TEXT) are searched for the same, but for names alone. A name that is no literal (".".join, a name in a
-variable) cannot be seen here: the tests of an installed wheel (tests/test_packaging.py) start all that does so.
+Text files (TEXT) are searched for the same, except for single names. A name that is not a literal (".".join, a name in
+a variable) cannot be found here; the tests of an installed wheel (tests/test_packaging.py) run this code.
 """
 
 import ast
@@ -69,7 +69,7 @@ if __name__ == "__main__":
 
 
 class Problem(NamedTuple):
-    """A name of the checkout's layout that a wheel must not hold."""
+    """A module name of the checkout that a wheel must not contain, with its file and line."""
 
     path: str
     line: int
@@ -80,13 +80,13 @@ class Problem(NamedTuple):
 
 
 class LayoutError(Exception):
-    """Names are left that mean a top-level package of the checkout; the text lists them."""
+    """Error: names of top-level packages of the checkout remain in the sources; the message lists them."""
 
 
 def stage(source: Path, target: Path) -> None:
-    """Write a project into `target` whose package hitbox is what the checkout `source` holds.
+    """Write a project into `target` whose package hitbox contains the sources of the checkout `source`.
 
-    Raises LayoutError with every name that is left. The project is one that setuptools builds as it is.
+    setuptools can build the project unchanged. Raises LayoutError with all module names of the checkout that remain.
     """
     settings = tomllib.loads((source / "pyproject.toml").read_text(encoding="utf-8"))
     patterns = settings["tool"]["setuptools"]["package-data"]
@@ -109,7 +109,7 @@ def stage(source: Path, target: Path) -> None:
 
 
 def stage_metadata(source: Path, target: Path) -> None:
-    """Write what the staged project has besides the sources: enough for its metadata."""
+    """Write the files of the staged project besides the sources, which are enough for its metadata."""
     settings = tomllib.loads((source / "pyproject.toml").read_text(encoding="utf-8"))
     (target / NAME / "game").mkdir(parents=True, exist_ok=True)
     shutil.copyfile(source / "game/__init__.py", target / NAME / "game/__init__.py")  # has the version
@@ -121,7 +121,10 @@ def stage_metadata(source: Path, target: Path) -> None:
 
 
 def shipped(source: Path, patterns: dict[str, list[str]]) -> Iterator[Path]:
-    """Yield the files of a wheel: main.py, and of each package the modules and what its patterns name."""
+    """Yield the paths of a wheel's files: main.py, and the modules and pattern matches of each package.
+
+    patterns: {package: glob patterns} of package-data.
+    """
     yield source / "main.py"
     for package in PACKAGES:
         folder = source / package
@@ -130,7 +133,9 @@ def shipped(source: Path, patterns: dict[str, list[str]]) -> Iterator[Path]:
 
 
 def project(source: Path) -> str:
-    """Return the pyproject.toml of the staged project: the checkout's metadata, and a package in place of five."""
+    """Return the text of the staged project's pyproject.toml: the checkout's metadata, with one package instead of
+    five.
+    """
     text = (source / "pyproject.toml").read_text(encoding="utf-8")
     metadata = text[text.index("[project]") : text.index("[tool.setuptools")]
     if metadata.count('"main:main"') != 1:
@@ -145,7 +150,9 @@ def project(source: Path) -> str:
 
 
 def converted(text: str, path: str = "") -> tuple[str, list[Problem]]:
-    """Return a module's source as a wheel has it, and the names that are left. Lines stay where they are."""
+    """Return (source of a module as in a wheel, problems: the checkout's names that remain). Line numbers do not
+    change.
+    """
     nodes = list(ast.walk(ast.parse(text)))  # once: parsing is what a build spends its time on
     return _rewritten(text, nodes, path), _problems(nodes, path)
 
@@ -193,7 +200,7 @@ def _problems(nodes, path):
 
 
 def text_problems(path: Path, name: str) -> list[Problem]:
-    """Return what a file of text names of the checkout's layout."""
+    """Return the problems in a text file: module names of the checkout. name: path of the file in the problems."""
     if path.suffix not in TEXT:
         return []
     lines = path.read_text(encoding="utf-8").splitlines()
@@ -205,7 +212,7 @@ def _is_top(name):
 
 
 def _import(alias):
-    """Return the statement that binds what `import name [as other]` does."""
+    """Return the statement for a wheel that binds the same name as `import name [as other]`."""
     name, other = alias.name, alias.asname
     top = name.split(".")[0]
     if top not in TOPS or other:
@@ -214,7 +221,7 @@ def _import(alias):
 
 
 def _name_in(words):
-    """Return the first name of the checkout's layout in a string, "" where there is none."""
+    """Return the first module name of the checkout in a string, "" if there is none."""
     if not ANY.search(words):
         return ""
     found = next(filter(None, (rule.search(words) for rule in (DOTTED, ENTRY, STATEMENT, TO_RUN, COMMAND))), None)
@@ -222,7 +229,9 @@ def _name_in(words):
 
 
 def _asked_for(node):
-    """Yield the expressions in a node that name a module: arguments of IMPORTERS, keys of sys.modules, after "-m"."""
+    """Yield the expressions in a node that denote a module: arguments of IMPORTERS, keys of sys.modules, items after
+    "-m".
+    """
     if isinstance(node, ast.Call):
         function = node.func
         name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
@@ -244,7 +253,7 @@ def _is_modules(node):
 
 
 def _begun(node):
-    """Yield the strings in a node that something is put behind: in an f-string, left of + and %, before .format."""
+    """Yield the strings in a node to which something is appended: in an f-string, left of + and %, before .format."""
     if isinstance(node, ast.JoinedStr):
         yield from (part for part, _ in pairwise(node.values))
     elif isinstance(node, ast.BinOp):

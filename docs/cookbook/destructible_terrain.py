@@ -17,7 +17,7 @@ pebble = world.add_body(Circle(3), position=(745, 60))
 
 
 def explode(at, radius):
-    """Blow a crater into the ground, and push away what is near."""
+    """Carve a crater into the ground, and push nearby bodies away."""
     crater = ground.carve(Circle(radius), at)  # bodies there wake, and fall in
     for body in world.overlap(Circle(3 * radius), at):
         away = body.center - at

@@ -1,4 +1,4 @@
-"""A ball falls on a floor: does it come up again to the square of its restitution times its height?"""
+"""A ball falls on a floor; the goal is a bounce as high as restitution squared times its height."""
 
 import pygame
 

@@ -1,4 +1,4 @@
-"""A rhombus: a convex shape is its corners, and one line in SHAPES of physics/shapes/kinds.py."""
+"""A rhombus as an example of a new convex shape: its corners, and one line in SHAPES of physics/shapes/kinds.py."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Speeds: a line from each dynamic body to where it is in a quarter of a second."""
+"""Overlay of speeds: a line from each dynamic body to its position a quarter of a second later."""
 
 import numpy as np
 import pygame
@@ -12,7 +12,7 @@ SECONDS = 0.25
 
 
 class Speeds(Layer):
-    """A line along the velocity of each dynamic body that is in the view."""
+    """Overlay with a line along the velocity of each dynamic body in the view."""
 
     name, title, key, color = "speeds", "Speeds", "y", YELLOW
 

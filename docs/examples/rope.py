@@ -1,4 +1,6 @@
-"""A rope: a kind of joint is the parts of a joint that it uses, and one line in KINDS of physics/joints/kinds.py."""
+"""A rope, an example of a new joint: the parts of a joint that it uses, and a line in KINDS of
+physics/joints/kinds.py.
+"""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +15,7 @@ from physics.tables.joint import LENGTH
 
 @dataclass(frozen=True)
 class Rope(Kind):
-    """Keeps two anchors [px] no further apart than `slack` times their distance when it is made."""
+    """Keeps two anchors [px] no further apart than `slack` times their distance when the joint is created."""
 
     PARTS = {"coordinate": LENGTH}
     POINTS = ("at_a", "at_b")

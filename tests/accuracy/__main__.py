@@ -1,7 +1,8 @@
-"""python -m tests.accuracy DIR: docs/accuracy.json, docs/accuracy.md and its fifteen plots from a full report in DIR.
+"""`python -m tests.accuracy DIR`: write docs/accuracy.json, docs/accuracy.md and its fifteen plots from a full report
+in DIR.
 
-python -m tests.accuracy DIR CHART replaces one chart by that of a report of this chart alone (--only CHART). The page
-then says that it was measured apart, and where, until a full report replaces all.
+`python -m tests.accuracy DIR CHART` replaces one chart by that of a report of this chart alone (--only CHART). The page
+then says that this chart was measured separately, and on which machine, until a full report replaces all charts.
 """
 
 import json
@@ -22,7 +23,7 @@ text { font-family: sans-serif; }
 def main(folder: Path, only: str = "") -> None:
     """Write docs/accuracy.json, docs/accuracy.md and the plots from the finished report in a folder.
 
-    only: key of the chart to replace; "": all.
+    only: key of the single chart to replace; "" for all charts.
     """
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     if manifest["quick"]:
@@ -48,13 +49,16 @@ def main(folder: Path, only: str = "") -> None:
 
 
 def replaced(kept: dict, rows: dict, apart: dict) -> dict:
-    """Return the stored report with the rows of some charts, which were measured apart: duration [s] and machine."""
+    """Return the stored report with the rows of some charts replaced by separately measured ones.
+
+    rows: {key of a chart: its rows}. apart: duration [s] and machine of the separate report.
+    """
     mine = {**kept.get("apart", {}), **dict.fromkeys(rows, apart)}
     return {**kept, "apart": mine, "rows": {**kept["rows"], **rows}}
 
 
 def write(kept: dict, drawn: list[Chart]) -> None:
-    """Write the rows, the plots of some charts, and the page."""
+    """Write the rows, the plots of the charts in `drawn`, and the page."""
     lines = ",\n".join(f" {json.dumps(key)}: {json.dumps(each)}" for key, each in kept.items() if key != "rows")
     tables = ",\n".join(
         f"  {json.dumps(key)}: [\n" + ",\n".join("   " + json.dumps(row) for row in each) + "\n  ]"

@@ -1,7 +1,7 @@
-"""python -m tests.accuracy.compare FIRST SECOND: compare two reports of one machine: contradictions, and series of
-charts that are certainly slower or faster in the second.
+"""`python -m tests.accuracy.compare FIRST SECOND`: compare two reports of one machine.
 
-A certain result of one report must not be wrong in the other. A tie contradicts none of its members.
+It prints contradictions, and series of charts that are certainly slower or faster in the second report. A certain
+result of one report must not be wrong in the other. A tie contradicts none of its members.
 """
 
 import json
@@ -52,7 +52,7 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
 
 
 class Change(NamedTuple):
-    """Ratio of a series' times in the second report to those in the first, beside the series timed in turns with it."""
+    """Times of a series in the second report relative to the first, compared with the series timed in turns with it."""
 
     ratio: float  # median of the least times
     sure: float  # share of its rows whose intervals, least to median, are apart
@@ -91,7 +91,7 @@ def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -
 
 
 def _pairs(rows, others) -> Iterator[tuple[Row, list[float], list[float]]]:
-    """Yield (row, its seconds, its seconds in the other report) of every time that both reports have."""
+    """Yield (row, its seconds, its seconds in the other report) for every time that both lists of rows have."""
     theirs = {_name(row): row for row in others}
     for row in rows:
         for name, cost in _costs(row):

@@ -2,9 +2,9 @@
 
     python -m tests.accuracy.independent
 
-Only NumPy, Shapely and pygame's loader of pictures are used, and poses are drawn by other random numbers. A point is
-(its name, the value in docs/accuracy.json, the value here, the greatest difference). Rates are compared by Wilson's
-intervals, closed forms to four digits, as the file keeps them.
+Only NumPy, Shapely and pygame's image loader are used, and the poses come from other random numbers. A point is (its
+name, the value in docs/accuracy.json, the value computed here, the greatest difference allowed). Rates are compared by
+Wilson's intervals, closed forms to four digits, the precision of the file.
 """
 
 import json
@@ -28,7 +28,7 @@ SIGMAS = 3.3  # of an interval: one of a thousand true points lies outside
 
 
 class Point(NamedTuple):
-    """A value of a chart beside its value here, and the greatest difference."""
+    """A value of a chart, the value computed here, and the greatest difference allowed."""
 
     name: str
     kept: float
@@ -37,7 +37,7 @@ class Point(NamedTuple):
 
     @property
     def agrees(self) -> bool:
-        """Whether both values differ by at most `most`."""
+        """Return whether the two values differ by at most `most`."""
         return abs(self.kept - self.here) <= self.most
 
 
@@ -48,14 +48,14 @@ def kept() -> dict:
 
 
 def row(chart: str, **values) -> dict:
-    """Return the only row of a chart with these values."""
+    """Return the only row of a chart with these column values."""
     (found,) = [each for each in kept()[chart] if all(each.get(name) == value for name, value in values.items())]
     return found
 
 
 @cache
 def pixels(sprite: str) -> np.ndarray:
-    """Return the solid pixels of a sprite of the shooter (rows, columns) bool: alpha over 127."""
+    """Return the solid pixels of a sprite of the shooter, (rows, columns) bool: those with an alpha over 127."""
     sheet = ROOT / "assets/images/planes.png"
     place = json.loads(sheet.with_suffix(".json").read_text(encoding="utf-8"))["frames"][sprite]
     picture = pygame.image.load(sheet).subsurface((place["x"], place["y"], place["w"], place["h"]))
@@ -64,7 +64,7 @@ def pixels(sprite: str) -> np.ndarray:
 
 @cache
 def outline(sprite: str) -> shapely.Geometry:
-    """Return the union of the squares of a sprite's pixels, around the middle of its picture."""
+    """Return the union of the squares of a sprite's pixels, with the origin at the middle of its picture."""
     solid = pixels(sprite)
     height, width = solid.shape
     squares = [shapely.box(x, y, x + 1, y + 1) for y, x in np.argwhere(solid)]
@@ -72,7 +72,7 @@ def outline(sprite: str) -> shapely.Geometry:
 
 
 def disc(radius: float) -> shapely.Geometry:
-    """Return the union of the pixels whose centres lie in a disc around the origin."""
+    """Return the union of the squares of the pixels whose centres lie in a disc around the origin."""
     at = np.arange(int(2 * radius)) + 0.5 - radius
     return shapely.union_all(
         [shapely.box(x - 0.5, y - 0.5, x + 0.5, y + 0.5) for x in at for y in at if x * x + y * y <= radius * radius]
@@ -80,7 +80,7 @@ def disc(radius: float) -> shapely.Geometry:
 
 
 def interval(count: int, total: int) -> tuple[float, float]:
-    """Return Wilson's interval of a rate, as (middle, half width)."""
+    """Return Wilson's interval of a rate of `count` in `total`, as (middle, half width)."""
     z2, share = SIGMAS * SIGMAS, count / total
     middle = (share + z2 / (2 * total)) / (1 + z2 / total)
     half = SIGMAS / (1 + z2 / total) * math.sqrt(share * (1 - share) / total + z2 / (4 * total * total))
@@ -97,7 +97,7 @@ def placed(shape: shapely.Geometry, x: float, y: float, angle: float) -> shapely
 
 
 def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
-    """Return {tier: (false hits, hits)} of a sprite against itself, at random poses of which half are true hits."""
+    """Return {tier: (false hits, hits)} of a sprite against itself, at random poses; half of them are true hits."""
     chance, shape = np.random.default_rng(77), outline(sprite)
     circle, hull = shapely.minimum_bounding_circle(shape).centroid, shape.convex_hull
     radius = shapely.minimum_bounding_radius(shape)
@@ -133,7 +133,7 @@ def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
 
 
 def tiers() -> Iterator[Point]:
-    """Yield the rates of false hits of three tiers, each of another sprite: chart 1."""
+    """Yield the rates of false hits of three tiers, each for another sprite (chart 1)."""
     for tier, sprite in zip(("circle", "aabb", "hull"), SPRITES, strict=True):
         wrong, hits = row("tiers", series=tier, sprite=sprite, panel="poses all around")["wrong"]
         mine = interval(*false_hits(sprite)[tier])
@@ -142,7 +142,7 @@ def tiers() -> Iterator[Point]:
 
 
 def fits() -> Iterator[Point]:
-    """Yield the part of three fitted shapes, united with the sprite, that is not shared with it: chart 3."""
+    """Yield, for three fitted shapes, the area not shared with the sprite over the area of the union (chart 3)."""
     for tier, sprite in zip(("circle", "aabb", "hull"), SPRITES, strict=True):
         shape = outline(sprite)
         area = {
@@ -156,7 +156,7 @@ def fits() -> Iterator[Point]:
 
 
 def contacts() -> Iterator[Point]:
-    """Yield errors of normals and depths of two discs of pixels with a radius of 12 px: chart 2."""
+    """Yield errors of normals and depths for two pixel discs with a radius of 12 px (chart 2)."""
     radius, shape, chance = 12.0, disc(12.0), np.random.default_rng(78)
     around = shapely.minimum_bounding_radius(shape)
     name = {"panel": "disc against disc"}
@@ -197,7 +197,7 @@ def overlaps_of_squares(x: float, y: float, between: float, turn: float, half: f
 
 
 def continuous() -> Iterator[Point]:
-    """Yield the discs that fly through a plate if only the poses of the steps are tested: chart 6."""
+    """Yield the rates at which discs pass through a plate if only the poses of the steps are tested (chart 6)."""
     radius, width, half, lanes = 5.0, 1.0, 11.0, 1000
     aside = np.random.default_rng(8).uniform(-1.2, 1.2, lanes) * (half + radius)
     for ratio in (1.0, 3.0, 10.0):
@@ -215,7 +215,7 @@ def continuous() -> Iterator[Point]:
 
 
 def integration() -> Iterator[Point]:
-    """Yield errors of a first-order integrator, half an acceleration times a step: chart 5."""
+    """Yield errors of a first-order integrator, half an acceleration times a step (chart 5)."""
     gravity, slope = 320.0, math.radians(30.0)
     cases = (
         ("free fall", "projection", gravity),
@@ -232,7 +232,7 @@ CHARTS = {"tiers": tiers, "fit": fits, "contacts": contacts, "continuous": conti
 
 
 def main() -> int:
-    """Print all points. Return 1 if one of them does not agree, else 0."""
+    """Print all points. Return 1 if a point does not agree, else 0."""
     wrong = 0
     for name, chart in CHARTS.items():
         for point in chart():

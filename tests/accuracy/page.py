@@ -1,4 +1,4 @@
-"""docs/accuracy.md: the story of a full report in fifteen plots, from the rows kept in docs/accuracy.json."""
+"""Text of docs/accuracy.md: the results of a full report in fifteen plots, from the rows in docs/accuracy.json."""
 
 import json
 from pathlib import Path
@@ -44,7 +44,7 @@ python -m tests.accuracy DIR            # writes this page from that report
 
 
 def panel_of(chart: Chart, rows: list) -> Panel:
-    """Return the panel of a chart that the story shows."""
+    """Return the panel of a chart that is listed in STORY."""
     panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
     return next(panel for panel in panels if panel.title == STORY[chart.key])
 
@@ -64,12 +64,12 @@ def rows_of(kept: dict, chart: Chart) -> list:
 
 
 def dots(kept: dict, chart: Chart) -> list[Dot]:
-    """Return the dots of the story's plot in the chart."""
+    """Return the dots of a chart's panel in STORY."""
     return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
 
 
 def charts() -> list[Chart]:
-    """Return the charts of the story, in the order of their numbers."""
+    """Return the charts in STORY, in the order of their numbers."""
     return [chart for chart in CHARTS if chart.key in STORY]
 
 
@@ -79,7 +79,7 @@ def facts_of(machine: dict) -> str:
 
 
 def total_seconds(kept: dict) -> float:
-    """Return the duration of a report with all charts [s], those that were measured apart included."""
+    """Return the duration of a report with all charts [s], including separately measured ones."""
     return kept["seconds"] + sum(each["seconds"] for each in kept.get("apart", {}).values())
 
 

@@ -1,4 +1,4 @@
-"""Two reports beside each other: what contradicts, and where it got slower."""
+"""Comparison of two reports: contradictions, and series that became slower."""
 
 from copy import deepcopy
 from random import Random
@@ -56,7 +56,11 @@ def test_what_has_nothing_beside_it_and_what_is_one_row_is_not_judged():
 
 
 def test_in_a_kept_report_the_series_that_was_slowed_down_is_named_and_no_other():
-    """Times as another run would find them: a job's all up to 1.5 times as long, give or take what runs differ by."""
+    """In a report compared with a copy of slowed-down times, exactly the slowed series is reported.
+
+    The copy simulates another run: all times of a job are up to 1.5 times as long, with the usual variation between
+    runs.
+    """
     kept, chance = read()["rows"], Random(5)
     kept_charts = [chart for chart in charts() if not chart.of]
 

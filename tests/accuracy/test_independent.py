@@ -1,4 +1,4 @@
-"""The report's headline charts beside values that were computed again without this project's code."""
+"""The main charts of the report, compared with values computed without this project's code."""
 
 import pytest
 
@@ -16,7 +16,7 @@ def test_three_points_of_each_chart_are_what_others_compute(chart):
 
 @pytest.mark.parametrize("chart", CHARTS)
 def test_a_report_that_is_wrong_by_a_fifth_is_found(chart, monkeypatch):
-    """Every value of the kept rows is one fifth greater."""
+    """A report in which every value is one fifth too large is found to be wrong."""
 
     def larger(value):
         if isinstance(value, bool) or value is None:

@@ -1,4 +1,4 @@
-"""docs/accuracy.md says what docs/accuracy.json holds, and each of its plots shows every dot of it."""
+"""docs/accuracy.md agrees with docs/accuracy.json, and each plot shows all its dots."""
 
 import re
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""Reads sheets and backdrops for the tests of the art, and says how light a colour looks."""
+"""Functions that read sprite sheets and backdrops for the tests of the art, and compute the lightness of colours."""
 
 import json
 
@@ -9,7 +9,7 @@ from assets.craft import png
 
 
 def load(sheet):
-    """Return ({frame: (h, w, 4) uint8}, {animation: entry}) of assets/images/<sheet>."""
+    """Return ({frame: (h, w, 4) uint8}, {animation: entry}) of the sheet assets/images/<sheet>."""
     picture = png.decode((FOLDER / "images" / f"{sheet}.png").read_bytes())
     table = json.loads((FOLDER / "images" / f"{sheet}.json").read_text(encoding="utf-8"))
     frames = {}
@@ -20,12 +20,12 @@ def load(sheet):
 
 
 def backdrop(name):
-    """Pixels of assets/images/<name>.png."""
+    """Return the pixels of assets/images/<name>.png, (h, w, channels) uint8."""
     return png.decode((FOLDER / "images" / f"{name}.png").read_bytes())
 
 
 def oklab(rgb):
-    """Return (..., 3) OKLab values of colours (..., 3) 0..255: lightness 0..1, a and b (Ottosson 2020)."""
+    """Return the OKLab values (..., 3) of RGB colours (..., 3) 0..255: lightness 0..1, a and b (Ottosson 2020)."""
     share = np.asarray(rgb, float) / 255
     linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
     cone = np.cbrt(
@@ -48,7 +48,7 @@ def oklab(rgb):
 
 
 def pieces(solid):
-    """Return the number of separate pieces of a mask (h, w) bool, with corners joining."""
+    """Return the number of 8-connected pieces of a mask (h, w) bool."""
     left, count = solid.copy(), 0
     while left.any():
         count += 1

@@ -1,4 +1,4 @@
-"""The kept music as the game hears it: decoded by pygame's mixer, which needs no encoder."""
+"""The stored music as the game plays it: decoded by pygame's mixer, which needs no encoder."""
 
 from functools import cache
 
@@ -21,5 +21,5 @@ def decoded(name):
 
 
 def sides_of(name):
-    """Return the left and the right side, (2, frames) float64 within -1..1."""
+    """Return the left and the right channel, (2, frames) float64 within -1..1."""
     return decoded(name).T.astype(np.float64) / 32767

@@ -1,4 +1,4 @@
-"""The files in assets/ equal the results of their scripts, to the bit, twice the same."""
+"""The files in assets/ equal the output of their scripts to the bit, in two runs."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Enemy bullets can be read on every ground, under every cloud, and told apart by colour-blind eyes."""
+"""Enemy bullets are visible on every ground and under every cloud, and distinguishable by colour-blind viewers."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def seen(ground):
 
 
 def parts(frame):
-    """Lightness of a bullet's dark ring, of its saturated ring and of its core."""
+    """Return the lightness (dark ring, saturated ring, core) of a bullet's frame."""
     pixels = frame[frame[..., 3] > 0][:, :3]
     light = oklab(pixels)[:, 0]
     chroma = np.sqrt((oklab(pixels)[:, 1:] ** 2).sum(1))
@@ -69,7 +69,7 @@ def test_safe_twins_collide_alike():
 
 
 def test_safe_kinds_are_told_apart_by_shape_or_size():
-    """Two safe kinds of one colour differ in their cores or sizes."""
+    """Any two safe kinds of bullets of one colour differ in their core or size."""
     kinds = [(SAFE[name][0], SAFE[name][1], ROUND.get(name, (0, 0))[1]) for name in SAFE]
     assert len(set(kinds)) == len(kinds)
     shapes = [(shape, ROUND.get(name, (0, 0))[1]) for name, (_, shape) in SAFE.items()]

@@ -1,4 +1,4 @@
-"""Both fonts cover ASCII and the arrows, and their sheets hold the glyphs where the JSON says."""
+"""Both fonts cover ASCII and the arrows, and their sheets have the glyphs at the positions in the JSON file."""
 
 import json
 
@@ -47,7 +47,7 @@ def test_bad_drawing_names_its_line():
 
 @pytest.mark.parametrize("name", FONTS)
 def test_a_small_f_is_no_capital(name):
-    """A capital stands on its left edge. A small f is a hook with a bar through it, which shows on both sides."""
+    """A small f differs from a capital F, whose stem is its left edge: the f is a hook with a bar on both sides."""
     small, capital = load_glyphs(name)["f"], load_glyphs(name)["F"]
     assert capital[: FONTS[name]["baseline"], 0].all()
     assert small[:, 0].sum() <= 1, "only the bar reaches the left edge"

@@ -1,4 +1,6 @@
-"""Sheets name what the game asks for; silhouettes have notches; backdrops wrap and stay behind the bullets."""
+"""Sheets have the frames that the game uses, silhouettes have notches, and backdrops wrap and
+are darker than bullets.
+"""
 
 import numpy as np
 import pytest
@@ -149,7 +151,7 @@ def test_sheet_has_its_frames_and_animations(sheet):
 
 @pytest.mark.parametrize("name", ["player", "dart_0", "saucer_0", "gunship_0", "large_plane_a", "large_plane_b"])
 def test_plane_has_notches(name):
-    """Boxes of planes overlap long before their pixels do, or the masks would decide nothing."""
+    """A plane fills at most 70 % of its box, so that masks and boxes give different hits."""
     solid = load("planes")[0][name][..., 3] > 0
     rows, columns = np.flatnonzero(solid.any(1)), np.flatnonzero(solid.any(0))
     box = (rows[-1] - rows[0] + 1) * (columns[-1] - columns[0] + 1)
@@ -193,7 +195,7 @@ def test_hero_stands_on_the_bottom_row_in_the_middle():
     ],
 )
 def test_backdrop_is_seamless(name, axes):
-    """Across the seam the picture changes no more than it does between any other two lines."""
+    """A backdrop changes no more across its seam than between any other two lines."""
     picture = backdrop(name).astype(int)
     for axis in axes:
         steps = abs(np.diff(picture, axis=axis)).mean(axis=tuple({0, 1, 2} - {axis}))
@@ -203,7 +205,9 @@ def test_backdrop_is_seamless(name, axes):
 
 @pytest.mark.parametrize("ground", ["sea", "coast", "storm"])
 def test_shooter_ground_is_dark_and_muted(ground):
-    """OKLab lightness at most 60 %, chroma at most 0.09: bullets must read on it."""
+    """A ground of the shooter has an OKLab lightness of at most 60 % and a chroma of at most 0.09, so that bullets are
+    visible.
+    """
     lab = oklab(backdrop(ground)[..., :3].reshape(-1, 3))
     assert lab[:, 0].max() <= 0.605
     assert np.sqrt(lab[:, 1] ** 2 + lab[:, 2] ** 2).max() <= 0.09
@@ -239,7 +243,7 @@ def test_frames_have_the_sizes_that_rules_are_written_for(sheet):
 
 @pytest.mark.parametrize("sheet", BARE)
 def test_every_sprite_has_the_one_outline(sheet):
-    """Solid pixels that border on clear ones have the outline's colour; a picture cut square at its edge would not."""
+    """Solid pixels next to transparent ones have the outline's colour, so no sprite is cut off at its edge."""
     for name, frame in load(sheet)[0].items():
         if any(word in name for word in BARE[sheet]):
             continue

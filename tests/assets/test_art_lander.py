@@ -1,4 +1,4 @@
-"""The lander's moon: pads stand on level ground under air, ice closes the cave, a ship fits through."""
+"""The lander's moon: pads are on level ground under open air, ice closes the cave, and a ship fits through."""
 
 from collections import deque
 
@@ -33,7 +33,7 @@ def test_a_pad_stands_on_level_ground_under_air(moon, pad):
 
 
 def reached(solid, start):
-    """Return the cells that a ship can reach from a place [px]."""
+    """Return the cells that a ship can reach from a position [px]."""
     height, width = (size // CELL for size in solid.shape)
     closed = solid[: height * CELL, : width * CELL].reshape(height, CELL, width, CELL).any(axis=(1, 3))
     for _ in range(SHIP):
@@ -67,7 +67,10 @@ def test_both_ways_into_the_cave_are_closed_each_by_ice_of_its_own(moon):
 
 
 def test_nothing_floats_but_the_mountain_that_only_ice_would_hold(moon):
-    """A spike of stone reaches its roof or its floor; cracks a pixel wide, through both plugs, part the mountain."""
+    """No rock is detached except the mountain that ice holds.
+
+    Rock spikes touch their roof or floor. Cracks one pixel wide, through both ice plugs, separate the mountain.
+    """
     counts = PixelMask(moon.solid).tiles.pieces.counts
     assert len(counts) == 2 and min(counts) > 100_000, sorted(counts.tolist())
     above, beside = np.roll(moon.solid, 1, axis=0), np.roll(moon.solid, 1, axis=1)

@@ -1,4 +1,4 @@
-"""The level is real Tiled JSON, big enough, every tile and object in it is known, and its text is checked."""
+"""The level is valid Tiled JSON of sufficient size, with known tiles and objects and checked text."""
 
 import json
 
@@ -102,7 +102,9 @@ def test_objects_are_known_and_inside(tmj):
 
 
 def decks(tmj):
-    """Return (left, top, right) [px] of the platforms, crates and belts, which carry the hero and are no tiles."""
+    """Return (left, top, right) [px] of the platforms, crates and belts, which the character can stand on besides
+    tiles.
+    """
     return [
         (thing["x"], thing["y"], thing["x"] + thing["width"])
         for kind in ("platform", "crate", "belt")

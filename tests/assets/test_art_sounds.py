@@ -1,4 +1,6 @@
-"""Every sound: its length, peak at -3 dB, no click at its ends, no DC, loud enough, not too bright, unlike another."""
+"""Every sound: its length, a peak of -3 dB, no clicks, no DC, loud enough, not too bright,
+different from all others.
+"""
 
 import wave
 
@@ -56,12 +58,12 @@ def read(name):
 
 
 def spectrum(samples):
-    """Return (Hz, power) of a whole sound."""
+    """Return (frequencies [Hz], power at each) of a whole sound."""
     return np.fft.rfftfreq(len(samples), 1 / RATE), np.abs(np.fft.rfft(samples)) ** 2
 
 
 def center(samples):
-    """Mean frequency by power [Hz]."""
+    """Return the mean frequency, weighted by power [Hz]."""
     hertz, power = spectrum(samples)
     return float((hertz * power).sum() / power.sum())
 
@@ -110,7 +112,7 @@ def test_what_is_heard_all_the_time_is_short():
 
 
 def test_no_sound_is_like_another():
-    """By band levels [dB], loudness over time and length: the nearest two are still told apart."""
+    """No two sounds are alike in band levels [dB], loudness over time and length."""
     marks = {}
     for name in SOUNDS:
         samples = read(name)

@@ -1,4 +1,4 @@
-"""Drawings as text: the pixels that are read, and the message for each kind of mistake."""
+"""Drawings given as text: the pixels that are read, and the error message for each kind of mistake."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The reader of tunes: what the tokens mean, and that every mistake is named by file, line and reason."""
+"""Parser of tunes: the meaning of the tokens, and errors that name file, line and reason."""
 
 import pytest
 

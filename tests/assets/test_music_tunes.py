@@ -1,4 +1,4 @@
-"""The tunes: in harmony, alive for ten minutes, alike in loudness, in stereo, and looping without a seam."""
+"""The tunes: in harmony, varied for ten minutes, equally loud, in stereo, and looping without a seam."""
 
 import hashlib
 import json
@@ -24,7 +24,7 @@ def decibels(samples):
 
 
 def shares(samples, *edges):
-    """Shares of the power between neighbouring edges [Hz]."""
+    """Return the shares of the power between neighbouring edges [Hz]."""
     power = np.abs(np.fft.rfft(samples)) ** 2
     hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
     return [
@@ -33,12 +33,12 @@ def shares(samples, *edges):
 
 
 def loudness(sides):
-    """Return the loudness that sets the level: without the low frequencies, which add little."""
+    """Return the loudness [dB] by which the level is set: low frequencies, which add little, are left out."""
     return decibels(sides - low_pass(sides, 100.0, RATE))
 
 
 def width(sides):
-    """Power of the difference between left and right over that of their sum."""
+    """Return the power of the difference of left and right divided by that of their sum."""
     left, right = sides
     return float(np.square(right - left).sum() / np.square(right + left).sum())
 
@@ -100,7 +100,7 @@ def test_the_boss_has_the_shooters_motif_in_minor_and_faster():
 
 @pytest.mark.parametrize("name", ALL)
 def test_the_file_is_as_long_as_its_samples_were(name):
-    """To the frame, else a loop stumbles."""
+    """The file has exactly as many frames as its samples, because a loop would otherwise stumble."""
     made_from = json.loads((FOLDER / "music" / f"{name}.json").read_text())
     assert decoded(name).shape == (made_from["frames"], made_from["channels"]) and made_from["channels"] == 2
     assert made_from["rate"] == RATE
@@ -158,7 +158,10 @@ def test_a_second_voice_is_to_the_right_and_its_echo_to_the_left():
 
 @pytest.mark.parametrize("name", [*JINGLES, *(pytest.param(name, marks=pytest.mark.nightly) for name in TUNES)])
 def test_both_sides_added_are_the_mono_mix(name, monkeypatch):
-    """A listener with one loudspeaker loses nothing: within 1 dB as a whole, and nowhere much of it."""
+    """The sum of both channels equals the mono mix, so one loudspeaker plays everything.
+
+    The sum is within 1 dB as a whole, and differs little at any time.
+    """
     added = render(tune_of(name)).mean(axis=1)
     monkeypatch.setattr(music, "_sides", lambda place: np.ones((2, 1)))
     mono = render(tune_of(name)).astype(float)
@@ -214,7 +217,9 @@ order """
 
 
 def test_the_loop_has_no_beginning():
-    """Played from its second half on it is the same music: echoes, releases and filters go around."""
+    """A tune played from its second half on gives the same samples, because echoes, releases
+    and filters wrap around.
+    """
     text = RING.replace("kh s k .", ". . . .").replace("kh s k s", "k s k s")
     forth, back = render(parse_tune(text + "one two")), render(parse_tune(text + "two one"))
     half = len(forth) // 2
@@ -237,7 +242,7 @@ def test_the_hash_is_of_the_samples():
 
 
 def test_no_aliases_among_the_harmonics():
-    """A high pulse keeps its harmonics; what folds back from above the band is 40 dB below them."""
+    """A high pulse keeps its harmonics, and aliases from above the band are 40 dB below them."""
     voice = parse_tune(RING.replace(" echo=0.5 delay=3", " bright=20000").replace("vibrato=20 ", "") + "one").voices[
         "lead"
     ]

@@ -1,4 +1,4 @@
-"""Ogg files: they play as long as their samples, and a check tells right from wrong, with or without soundfile."""
+"""Ogg files: as long as their samples, and checked correctly with or without soundfile."""
 
 import json
 
@@ -14,7 +14,7 @@ needs_encoder = pytest.mark.skipif(not ogg.is_available(), reason="soundfile (ex
 
 
 def chord(frames, seed=1):
-    """Two sides of a few held tones, (frames, 2) int16."""
+    """Return a stereo chord of a few held tones, (frames, 2) int16."""
     time = np.arange(frames)[:, None] / RATE
     tones = np.random.default_rng(seed).uniform(100, 2000, (5, 2))
     return (np.sum([np.sin(2 * np.pi * tone * time) for tone in tones], axis=0) * 3000).astype(np.int16)

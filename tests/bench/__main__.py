@@ -1,10 +1,10 @@
-"""Measure, print tables. Ratios within one run; absolute times are this machine's today.
+"""Run the benchmarks and print tables. Compare ratios of one run; absolute times depend on the machine.
 
-python -m tests.bench masks                                one bench: masks, broadphase, solvers or moving
+python -m tests.bench masks                                one benchmark: masks, broadphase, solvers or moving
 python -m tests.bench                                      all four, one after the other
 python -m tests.bench --json docs/bench/0.1.0.json         the ratios as JSON, in a file (- or nothing: printed)
-python -m tests.bench --compare docs/bench/0.1.0.json      each ratio beside the kept one, more than 5 % pointed at
-python -m tests.bench stability                            what stands, how deep it overlaps: see stability.py
+python -m tests.bench --compare docs/bench/0.1.0.json      each ratio beside the stored one, changes over 5 % marked
+python -m tests.bench stability                            which piles stand, how deep they overlap: see stability.py
 """
 
 import argparse
@@ -29,15 +29,15 @@ def read_arguments(arguments):
 
 
 def measured(names, quick):
-    """Run the benches, which print their tables. Return {bench: its ratios}.
+    """Run the benchmarks, which print their tables. Return {benchmark: its ratios}.
 
-    Raises ModuleNotFoundError without the peers.
+    Raises ModuleNotFoundError if a peer such as pymunk is not installed.
     """
     return {name: importlib.import_module(f"tests.bench.{name}").run(quick=quick) for name in names}
 
 
 def main(arguments=None):
-    """Run the benches. Returns 0 whatever they find (speed is told, not tested), 2 for a file that cannot be used."""
+    """Run the benchmarks. Returns 0 whatever the speed, 2 for a file that cannot be used."""
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

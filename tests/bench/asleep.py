@@ -1,4 +1,4 @@
-"""Sleeping bodies cost nothing: a step of 100,000 sleeping boxes, and with one awake, against that of an empty
+"""Cost of sleeping bodies: a step of 100,000 sleeping boxes, and with one body awake, relative to a step of an empty
 world.
 """
 
@@ -14,17 +14,17 @@ HIGH = 10  # boxes of a stack
 
 
 def empty() -> World:
-    """A world with the default effects and nothing in it."""
+    """Return a world with the default effects and no body."""
     return World()
 
 
 def apart(count: int) -> World:
-    """Return a world of boxes that lie apart from each other on a wide floor."""
+    """Return a world with `count` boxes that lie apart from each other on a wide floor."""
     return _boxes(count, 1)
 
 
 def stacked(count: int) -> World:
-    """Return a world of boxes in stacks of ten."""
+    """Return a world with `count` boxes in stacks of ten."""
     return _boxes(count, HIGH)
 
 
@@ -42,7 +42,9 @@ def _boxes(count, high):
 
 
 def put_to_sleep(world: World, most: int = 400) -> int:
-    """Step until everything sleeps. Returns the steps that it took. Raises RuntimeError when something stays awake."""
+    """Step until all bodies sleep. Returns the number of steps. Raises RuntimeError if a body is awake after `most`
+    steps.
+    """
     for number in range(most):
         world.step()
         if not world.awake.dynamic.size:
@@ -51,7 +53,7 @@ def put_to_sleep(world: World, most: int = 400) -> int:
 
 
 def median_steps(worlds: dict, steps: int = STEPS) -> dict:
-    """Return {name: median milliseconds of a step}, the worlds stepped in turns."""
+    """Return {name: median time of a step [ms]}; the worlds {name: world} are stepped in turns."""
     spent = {name: [] for name in worlds}
     for _ in range(steps):
         for name, world in worlds.items():
@@ -62,9 +64,9 @@ def median_steps(worlds: dict, steps: int = STEPS) -> dict:
 
 
 def measure(count: int = BOXES, steps: int = STEPS) -> dict:
-    """Measure a step with no body and with one body awake, as multiples of a step of an empty world.
+    """Measure a step with no body awake and with one, as multiples of a step of an empty world.
 
-    Return {layout: {"none": …, "one": …}}.
+    Returns {layout: {"none": multiple, "one": multiple, "empty_ms": time of the empty world's step}}.
     """
     found = {}
     for name, build in (("apart", apart), ("stacked", stacked)):
@@ -83,7 +85,7 @@ def measure(count: int = BOXES, steps: int = STEPS) -> dict:
 
 
 def main():
-    """Print the multiples."""
+    """Measure, and print the multiples."""
     for name, row in measure().items():
         print(
             f"{BOXES} boxes asleep, {name:8} an empty world's step is {row['empty_ms']:.3f} ms; "

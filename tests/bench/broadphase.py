@@ -1,7 +1,7 @@
-"""The strategies on four layouts, 100 to 50,000 bodies: µs per step with nothing, few and all moving, and growth.
+"""Broad phases on four layouts of 100 to 50,000 bodies: µs per step with none, few and all moving, and growth.
 
-Boxes of 8 to 16 px, about one overlap per body when even. Brute force stops where a step takes seconds. The claims of
-the design (which strategy suits which layout) stand or fall by the last table.
+The boxes are 8 to 16 px, with about one overlap per body in the even layout. Brute force is left out where a step takes
+seconds. The last table shows which broad phase suits which layout.
 """
 
 import math
@@ -21,14 +21,14 @@ SPEED = 60.0  # px/s
 
 
 def giant(rng, n):
-    """Return evenly spread bodies, and one body that is as wide as all of them."""
+    """Return (positions, extra bodies) of evenly spread bodies, with one extra body as wide as all of them."""
     places, _ = charts.even(rng, n - 1)
     width = charts.SPACING * math.sqrt(n)
     return places, [(Polygon.box(width, 40.0), (width / 2, width))]
 
 
 def alone(layout):
-    """A layout of the report's, with nothing beside it."""
+    """Return a layout of the report without its extra bodies."""
     return lambda rng, n: (layout(rng, n)[0], [])
 
 
@@ -42,7 +42,7 @@ MOVING = {"all moving": 1.0, "2 % moving among still ones": 0.02, "nothing movin
 
 
 def make_world(strategy, layout, n, moving):
-    """A world of which a share of the bodies moves: 0, 0.02 or 1."""
+    """Return a world in which a share `moving` of the bodies moves: 0, 0.02 or 1."""
     rng = np.random.default_rng(5)
     places, giants = LAYOUTS[layout](rng, n)
     world = World(Effects(narrowphase=False), strategy)
@@ -57,8 +57,9 @@ def make_world(strategy, layout, n, moving):
 
 
 def step_time(world):
-    """Return the mean time of the broad phase over some steps [s]. Moving bodies are searched for once in a few
-    steps.
+    """Return the mean time of the broad phase over some steps [s].
+
+    It is a mean because moving bodies are searched for once in several steps.
     """
     spent = 0.0
     for _ in range(STEPS):
@@ -68,22 +69,24 @@ def step_time(world):
 
 
 class Findings:
-    """Measured times {(share of moving bodies, layout, size): {strategy: seconds}}, and ratios of these times."""
+    """Measured times {(share of moving bodies, layout, size): {broad phase: seconds}}, and ratios of these times."""
 
     def __init__(self):
         self.times = {}
 
     def keep(self, moving, layout, size, strategy, seconds):
-        """Store one measurement."""
+        """Store the time of one measurement."""
         self.times.setdefault((moving, layout, size), {})[strategy] = seconds
 
     def fastest(self, moving, layout, size):
-        """Return the fastest strategy for a layout and size, and how much slower the next one is, as text."""
+        """Return the fastest broad phase for a layout and size, and how much slower the next one is, as text."""
         (best, name), (second, _) = sorted((t, name) for name, t in self.times[moving, layout, size].items())[:2]
         return f"{name} ({second / best:.1f}x)"
 
     def ratios(self):
-        """Return {name: time of a strategy / that of brute force}, where brute force was run and bodies move."""
+        """Return {name: time of a broad phase / time of brute force} of all cases with moving
+        bodies and brute force.
+        """
         return {
             f"{size} bodies {layout}, {moving}: {name} / brute": seconds / found["brute"]
             for (moving, layout, size), found in self.times.items()
@@ -93,13 +96,16 @@ class Findings:
 
 
 def growth(times):
-    """Return the exponent with which the time grows with the number of bodies, from the second size to the last."""
+    """Return the exponent with which the time grows with the number of bodies. times: {number of bodies: time}.
+
+    It is computed from the second size and the last one.
+    """
     sizes = sorted(times)
     return math.log(times[sizes[-1]] / times[sizes[1]]) / math.log(sizes[-1] / sizes[1])
 
 
 def timed(strategies, layout, n, moving):
-    """Return {strategy: function that steps its world and returns the time}; slow ones only in small worlds."""
+    """Return {broad phase: function that steps its world and returns the time}; slow ones only for small worlds."""
     return {
         name: partial(step_time, make_world(make(), layout, n, moving))
         for name, make in strategies.items()
@@ -108,7 +114,7 @@ def timed(strategies, layout, n, moving):
 
 
 def run(quick=False):
-    """Print the tables; return {name: time over brute force's}."""
+    """Print the tables; return {name: time relative to brute force}."""
     sizes = SIZES[:3] if quick else SIZES
     strategies = {
         **BROADPHASES,

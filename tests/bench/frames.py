@@ -1,5 +1,5 @@
-"""`python -m tests.bench.frames [SCENE …] [--scale 2] [--seconds 20]`: time of a frame, with the plot of costs and
-without.
+"""`python -m tests.bench.frames [SCENE …] [--scale 2] [--seconds 20]`: time of a frame with and without the plot of
+costs.
 
 The whole program runs under the dummy driver, with one step per frame and 60 frames a second. A bot plays the scene. In
 the second run the plot is opened after the first second, and its measuring process runs, too. Two times of each frame
@@ -29,7 +29,10 @@ STEP = 1 / 60  # [s]
 
 
 def frames_of(name: str, scale: int, seconds: float, opens: bool) -> np.ndarray:
-    """Return the milliseconds of each frame, (n, 2): on the clock, and in the program's own thread."""
+    """Return (n, 2) milliseconds of each frame: time on the clock, and processor time of the program's own thread.
+
+    opens: True opens the plot of costs after the first second.
+    """
     registry, settings = Registry(SCENES), Settings(window_scale=scale, labs_seen=list(SCENES))
     app = App(read_options(["--scene", name, "--bot"], registry), registry, settings, open_window(settings))
     app._rest = lambda started: None  # the wait for the next frame is ours
@@ -54,7 +57,7 @@ def frames_of(name: str, scale: int, seconds: float, opens: bool) -> np.ndarray:
 
 
 def main() -> None:
-    """Measure, and print two lines a scene."""
+    """Measure the scenes of the command line, and print two lines for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenes", nargs="*", default=["shooter", "platformer"], metavar="SCENE")
     parser.add_argument("--scale", type=int, default=2)

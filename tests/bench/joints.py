@@ -1,11 +1,12 @@
-"""Nanoseconds per joint and step: nets of 760 and 4,900 joints in both tiers, beside pymunk; asleep; and without any.
+"""Nanoseconds per joint and step: nets of 760 and 4,900 joints in both joint solvers and pymunk, asleep, and without
+joints.
 
     python -m tests.bench.joints
 
 A net of n x n balls hangs on its two upper corners and swings; each ball is pinned to its neighbours, as in Box2D's
-benchmark JointGrid. Runs advance in turns, one step each, so that other work on the machine meets all of them alike;
-the median of the processor time is printed. Ours takes 4 substeps or as many as the loads need, pymunk ten iterations a
-step.
+benchmark JointGrid. Runs advance in turns, one step each, so that other load on the machine affects them alike. The
+median of the processor time is printed. Hitbox takes 4 substeps, or as many as the loads need; pymunk takes ten
+iterations a step.
 """
 
 import importlib
@@ -29,7 +30,9 @@ OURS = {
 
 
 def joints_of(wide):
-    """Return the pairs of places (row, column) of a net of wide x wide balls that are pinned together."""
+    """Return the pairs of positions ((row, column), (row, column)) of the balls that are pinned in a net of wide x wide
+    balls.
+    """
     places = list(itertools.product(range(wide), repeat=2))
     return [((j, i), (j, i + 1)) for j, i in places if i + 1 < wide] + [
         ((j, i), (j + 1, i)) for j, i in places if j + 1 < wide
@@ -37,7 +40,7 @@ def joints_of(wide):
 
 
 def net(wide: int, tier: Any = "auto", effects: Effects = EFFECTS, **settings) -> World:
-    """Return a world with a net of wide x wide balls."""
+    """Return a world with a net of wide x wide balls. tier: its joint solver."""
     world = World(effects, **settings)
     world.joint_solver = tier
     at = [(STEP * i, STEP * j) for j in range(wide) for i in range(wide)]
@@ -53,7 +56,7 @@ def net(wide: int, tier: Any = "auto", effects: Effects = EFFECTS, **settings) -
 
 
 def space(wide: int):
-    """Return a function that steps the same net in pymunk. Raises ModuleNotFoundError without pymunk."""
+    """Return a function that steps the same net in pymunk. Raises ModuleNotFoundError if pymunk is not installed."""
     pymunk: Any = importlib.import_module("pymunk")
     found = pymunk.Space()
     found.gravity, found.iterations = (0.0, 9.8 * 32.0), 10
@@ -85,7 +88,7 @@ def medians(runs: dict, steps: int = STEPS) -> dict:
 
 
 def asleep(wide: int) -> World:
-    """Return a world whose net has come to rest in air and sleeps."""
+    """Return a world whose net of wide x wide balls has come to rest in air and sleeps."""
     world = net(wide, effects=EFFECTS.with_(sleeping=True, drag=True), drag=4.0)
     for _ in range(6000):
         world.step()
@@ -95,7 +98,7 @@ def asleep(wide: int) -> World:
 
 
 def boxes(joints: bool) -> World:
-    """Return a world of 400 boxes that fall on a floor, with the effect joints or without it, and no joint."""
+    """Return a world of 400 boxes that fall on a floor. It has no joint; joints: True declares the effect."""
     world = World(Effects.rigid_bodies().with_(sleeping=False, joints=joints), substeps=4)
     world.add_body(Polygon.box(2000, 20), position=(200, 420), kind="static")
     world.add_bodies(Polygon.box(16, 16), [(20.0 * (k % 20), 20.0 * (k // 20)) for k in range(400)])

@@ -1,4 +1,4 @@
-"""Masks that push: a pair of crates at rest and a new one, beside boxes; a crater in a large terrain."""
+"""Masks that collide, compared with boxes: pairs of crates at rest and new pairs, and a crater in a large terrain."""
 
 import gc
 from time import perf_counter
@@ -28,7 +28,7 @@ def crates(shape, count):
 
 
 def pair_times(shape, count):
-    """Return seconds per pair: (narrow phase of a pair at rest, of a new pair, whole step of a pair at rest)."""
+    """Return (narrow phase of a resting pair, narrow phase of a new pair, step of a resting pair), seconds per pair."""
     world = crates(shape, count)
 
     def narrow():
@@ -45,7 +45,7 @@ def pair_times(shape, count):
 
 
 def hills():
-    """solid[row, col] of ground with caves."""
+    """Return the pixels solid[row, col] of ground with caves."""
     x, y = np.arange(WIDTH), np.arange(HEIGHT)[:, None]
     solid = y > DEPTH + 90.0 * np.sin(x / 210.0) + 40.0 * np.sin(x / 47.0) + 6.0 * np.sin(x / 5.0)
     for left, top, radius in ((500, 700, 60), (1500, 800, 90), (2500, 650, 70)):
@@ -54,7 +54,7 @@ def hills():
 
 
 def carve_times(count):
-    """Return the seconds of making the ground, of each carve that splits nothing, and of each carve that does.
+    """Return the seconds of making the ground, and lists of seconds of carves that split nothing and that split it.
 
     The carves are discs along the surface of the ground.
     """
@@ -84,7 +84,7 @@ def carve_times(count):
 
 
 def pygame_carve_time(count):
-    """Return the seconds in which pygame erases a disc from a Mask and finds the remaining pieces."""
+    """Return the seconds in which pygame erases a disc from a Mask and finds the connected pieces."""
     rng = np.random.default_rng(SEED)
     side = int(2.0 * RADIUS)
     surface = pygame.Surface((side, side), pygame.SRCALPHA)
@@ -104,7 +104,9 @@ def pygame_carve_time(count):
 
 
 def run(quick=False):
-    """Print the tables; return {name: our time over that of boxes, of making the ground, of pygame's}."""
+    """Print the tables; return {name: ratio}: masks over boxes, a carve over making the ground,
+    a carve over pygame's.
+    """
     count = 50 if quick else 200
     times = {
         name: pair_times(shape, count)

@@ -1,7 +1,8 @@
-"""2,000 sprites of 24 to 64 px: pygame's ways of mask collision and ours, in one run, the same hits asserted.
+"""2,000 sprites of 24 to 64 px: pygame's mask collision methods and Hitbox in one run; equal hits are asserted.
 
-All sprites move a pixel or so per frame and turn back at the border, so that they stay as dense as they began. Ours is
-a whole step: motion, broad phase, masks, contacts, events; the mean of many, as boxes are looked for once in some.
+All sprites move about a pixel per frame and turn back at the border, so the density stays the same. The time of Hitbox
+is that of a whole step: motion, broad phase, masks, contacts and events. It is a mean over many steps, because boxes
+are searched for once in several steps.
 """
 
 from functools import partial
@@ -21,7 +22,7 @@ STEPS = 32  # of which a figure of ours is the mean: two rounds of rectangles th
 
 
 def sprite_images(rng, count):
-    """Ragged planes: a body, wings and a tail, as surfaces with alpha."""
+    """Return surfaces of random airplanes (a body, wings and a tail) with alpha."""
     found = []
     for _ in range(count):
         width, height = (int(v) for v in rng.integers(24, 65, 2))
@@ -38,7 +39,7 @@ def sprite_images(rng, count):
 
 
 class Field:
-    """The sprites as pygame has them, and the same in worlds of ours."""
+    """The same moving sprites for pygame and for Hitbox worlds."""
 
     def __init__(self, count):
         rng = np.random.default_rng(SEED)
@@ -57,7 +58,7 @@ class Field:
         self.group = group_of(self.rects, self.masks)
 
     def world(self, strategy, effects):
-        """All sprites in a world of ours, standing still."""
+        """Return a world with all sprites at rest."""
         world = World(effects, strategy)
         for kind, (x, y) in zip(self.which, self.corners, strict=True):
             origin = self.shapes[kind].origin
@@ -65,7 +66,7 @@ class Field:
         return world
 
     def turn_back(self, world):
-        """Send those back that have left the field."""
+        """Reverse the velocity of bodies that have left the field."""
         low, high = self.corners.min(axis=0), self.corners.max(axis=0) + 32.0
         for axis, (place, speed) in enumerate((("x", "vx"), ("y", "vy"))):
             at, towards = world.bodies[place], world.bodies[speed]
@@ -73,19 +74,19 @@ class Field:
 
 
 def ways():
-    """Return {name: (broad phase, effects, whether the contacts are read)}."""
+    """Return {name: (broad phase, effects, whether the contacts are read)} of the measured variants."""
     found = {each.name: (each, Effects(), False) for each in (SpatialHashGrid, DynamicTree, SweepAndPrune, BruteForce)}
     found["hash, contacts"] = (SpatialHashGrid, Effects(), True)
     return found | {"hash, contacts of outlines": (SpatialHashGrid, Effects(response=True), True)}
 
 
 def pairs_of(found):
-    """Return {(body, body)} of contacts or manifolds."""
+    """Return the set of (body_a, body_b) of contacts or manifolds."""
     return set(zip(found["body_a"].tolist(), found["body_b"].tolist(), strict=True))
 
 
 def mean_step(field, world, read):
-    """Return the mean time of a step [s] over STEPS steps. read: whether the contacts of each step are read."""
+    """Return the mean time of a step [s] over STEPS steps. read: True reads the contacts of each step."""
     spent = 0.0
     for _ in range(STEPS):
         field.turn_back(world)
@@ -98,7 +99,9 @@ def mean_step(field, world, read):
 
 
 def beside_the_best(count):
-    """Print the times of a frame of chart 14's moving sprites; return {name: ours over the best pygame program's}."""
+    """Print the frame times of the moving sprites of chart 14; return {name: time over that of the best pygame
+    program}.
+    """
     times = {row["series"]: row["cost"]["seconds"][1] for row in measure_sprites(count)}
     table(
         f"{count} sprites moved by whole pixels: a frame with its motion, every pair that shares a pixel",
@@ -112,7 +115,7 @@ def beside_the_best(count):
 
 
 def run(quick=False):
-    """Print the tables; return {name: our time over pygame's}."""
+    """Print the tables; return {name: Hitbox time over pygame time}."""
     pygame.init()
     count = 500 if quick else SPRITES
     field = Field(count)

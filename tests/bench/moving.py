@@ -1,9 +1,9 @@
-"""Scenes in which bodies move: rain, collapses, a tumbler, small worlds, crowds, bullets and carving, beside pymunk.
+"""Scenes of moving bodies compared with pymunk: rain, collapses, a tumbler, small worlds, crowds, bullets and carving.
 
 Bodies are boxes and discs of 16 to 24 px with friction 0.6, gravity is 10 m/s2, at 60 steps/s. pymunk runs at its
-defaults: 10 iterations, one step per frame, slop 0.1 px. Ours runs with the substeps that the loads ask for ("auto",
-the default) and with 4. All runs of a scene advance in turns of 20 steps, so that other load on the machine meets all
-of them alike. A ratio is median over median in this run. Nothing sleeps before it has come to rest.
+defaults: 10 iterations, one step per frame, slop 0.1 px. Hitbox runs with substeps by load ("auto", the default) and
+with 4. All runs of a scene advance in turns of 20 steps, so that other load on the machine affects them alike. A ratio
+is median over median in this run. Bodies sleep only after they have come to rest.
 """
 
 from collections.abc import Callable
@@ -38,25 +38,29 @@ class Item(NamedTuple):
 
 @lru_cache
 def shape_of(size):
-    """Return the shape of a size; bodies of one size share it, as sprites do."""
+    """Return the shape for a size; bodies of one size share their shape, as sprites do."""
     return Circle(size[0]) if len(size) == 1 else Polygon.box(*size)
 
 
 def stages_now(world, spent):
-    """Return {stage: seconds} of the last step, which took `spent` seconds, and the seconds between its stages."""
+    """Return {stage: seconds} of the last step, including the seconds between its stages. spent: seconds of the whole
+    step.
+    """
     stages = dict(world.profile.stages)
     return stages | {"between stages": spent - sum(stages.values())}
 
 
 class Timed:
-    """A world whose steps are timed. edit(self, n), if given, is called before step n, and counted as `edits`."""
+    """A world whose steps are timed. edit(self, n), if given, is called before step n; its time
+    is counted as `edits`.
+    """
 
     def __init__(self, world, edit=None):
         self.world, self.edit, self.n = world, edit, 0
         self.stages: list[dict[str, float]] = []
 
     def step(self):
-        """Return the seconds of one step with its edits."""
+        """Make one step with its edits, and return its seconds."""
         start = perf_counter()
         if self.edit:
             self.edit(self, self.n)
@@ -69,7 +73,7 @@ class Timed:
 
 
 class Ours(Timed):
-    """A scene in one of our worlds."""
+    """A scene in a Hitbox world."""
 
     def __init__(self, items, substeps, effects=EFFECTS, gravity=(0.0, GRAVITY), edit=None, shapes=None):
         gravity = gravity if effects.gravity else None
@@ -87,12 +91,12 @@ class Ours(Timed):
         return body
 
     def remove_first(self, first):
-        """Remove the body that was added at place `first` of those that are left."""
+        """Remove the body at index `first` of the remaining bodies, in the order of their addition."""
         self.world.remove_body(self.ids.pop(first))
 
 
 class Pymunk:
-    """The same scene in pymunk. Raises ModuleNotFoundError without pymunk."""
+    """The same scene in pymunk. Raises ModuleNotFoundError if pymunk is not installed."""
 
     def __init__(self, items, gravity=(0.0, GRAVITY), edit=None):
         import pymunk
@@ -135,7 +139,7 @@ class Pymunk:
 
 
 class Several:
-    """Several runs that step one after another, as one run."""
+    """Several runs that step one after another and count as one run."""
 
     def __init__(self, runs):
         self.runs, self.stages = runs, []
@@ -152,7 +156,7 @@ def ground(width):
 
 
 def tray(width, height):
-    """Ground with a wall at each end."""
+    """Return the ground with a wall at each end."""
     walls = [Item((32.0, height), side * (width / 2 + 16.0), -height / 2, kind="static") for side in (-1, 1)]
     return [ground(width + 64.0), *walls]
 
@@ -172,7 +176,7 @@ def drops(count, columns, size, seed=1, gap=1.5):
 
 
 def rain(make: Callable[..., Any], count: int = 1500) -> Any:
-    """Rain: each step removes the six oldest boxes and adds six at the top."""
+    """Return a run with rain: each step removes the six oldest boxes and adds six at the top."""
     rng = np.random.default_rng(2)
     walls = tray(1600.0, 1200.0)
 
@@ -185,24 +189,24 @@ def rain(make: Callable[..., Any], count: int = 1500) -> Any:
 
 
 def falling(count):
-    """A rain of boxes that falls onto ground and piles up."""
+    """Return a function that makes a run in which `count` boxes rain onto ground and pile up."""
     return lambda make: make([*tray(30 * count**0.5, 3000.0), *drops(count, int(count**0.5), 20.0)])
 
 
 def wall(make):
-    """A wall of 600 boxes, hit by a ball."""
+    """Return a run with a wall of 600 boxes that is hit by a ball."""
     bricks = [Item((20.0, 20.0), 20.0 * (k % 20) + 10.0 * (k // 20 % 2), -10.0 - 20.0 * (k // 20)) for k in range(600)]
     return make([ground(6000.0), *bricks, Item((40.0,), -500.0, -300.0, 1200.0, 0.0, 10.0)])
 
 
 def towers(make):
-    """20 towers of 10 boxes, hit by a ball."""
+    """Return a run with 20 towers of 10 boxes, hit by a ball."""
     boxes = [Item((20.0, 20.0), 60.0 * (k // 10), -10.0 - 20.0 * (k % 10)) for k in range(200)]
     return make([ground(6000.0), *boxes, Item((20.0,), -300.0, -150.0, 900.0, 0.0, 10.0)])
 
 
 def pyramid_hit(make):
-    """A pyramid of 210 boxes, hit by a ball."""
+    """Return a run with a pyramid of 210 boxes, hit by a ball."""
     boxes = [
         Item((20.0, 20.0), 22.0 * (column - (19 - row) / 2), -10.0 - 20.0 * row)
         for row in range(20)
@@ -215,7 +219,7 @@ TUMBLER = 240.0  # [px] half width of the drum
 
 
 def tumbler(make):
-    """500 boxes in a drum of four walls that turns by 25 degrees a second."""
+    """Return a run with 500 boxes in a drum of four walls that turns at 25 degrees a second."""
     rate, place = 0.4363, TUMBLER + 10.0
     walls = [
         Item((2 * TUMBLER + 40.0, 20.0) if k % 2 else (20.0, 2 * TUMBLER + 40.0), x, y, kind="kinematic")
@@ -236,12 +240,15 @@ def tumbler(make):
 
 
 def small_worlds(make):
-    """100 worlds, each with five boxes that fall on ground."""
+    """Return a run with 100 worlds, each with five boxes that fall on ground."""
     return Several([make([ground(600.0), *drops(5, 2, 20.0, seed=k)]) for k in range(100)])
 
 
 def crowd(count, moving):
-    """Discs without gravity in rows with gaps; each with a random velocity, or all with the same."""
+    """Return a function that makes a run with `count` discs in loose rows, without gravity.
+
+    moving: True gives each disc a random velocity, False gives all the same.
+    """
 
     def scene(make):
         rng, side = np.random.default_rng(3), int(count**0.5)
@@ -256,7 +263,9 @@ def crowd(count, moving):
 
 
 class Scene(NamedTuple):
-    """A scene. steps: number of steps to measure; build(make): a run, where make(items, …) makes it for an engine."""
+    """A scene. steps: number of steps to measure. build(make): returns a run; make(items, ...)
+    makes it for one engine.
+    """
 
     steps: int
     build: Callable[[Callable[..., Any]], Any]
@@ -286,7 +295,7 @@ def sprites(side=20):
 
 
 def masks_and_boxes(steps):
-    """A rain of 300 pixel masks, two added and removed a step, over the same rain of boxes."""
+    """Return runs with a rain of 300 pixel masks and the same rain of boxes; two are added and removed in each step."""
 
     def make(shapes):
         rng, walls = np.random.default_rng(4), tray(600.0, 1200.0)
@@ -303,7 +312,7 @@ def masks_and_boxes(steps):
 
 
 def bullets(steps):
-    """5,000 mask bullets among 200 sprites, detection only, over the same with boxes."""
+    """Return runs with 5,000 bullets among 200 sprites, detection only: as masks and as boxes."""
 
     def make(tier):
         world, rng = World(Effects()), np.random.default_rng(5)
@@ -318,7 +327,7 @@ def bullets(steps):
 
 
 def carving(steps):
-    """A hole carved in each step into ground of 1,200 x 200 pixels under 60 discs, over the same without carving."""
+    """Return runs on ground of 1,200 x 200 pixels under 60 discs: with a hole carved in each step, and without."""
 
     def make(carves):
         world = World(EFFECTS.with_(carving=True), gravity=(0.0, GRAVITY))
@@ -346,7 +355,7 @@ OWN = {
 
 
 def in_turns(runs, steps):
-    """Step all runs in turns. Return {name: (milliseconds of each step, milliseconds by stage: medians)}."""
+    """Step all runs in turns. Return {name: (milliseconds of each step, {stage: median milliseconds})}."""
     times = {name: [] for name in runs}
     for first in range(0, steps, TURN):
         for name, run in runs.items():
@@ -355,7 +364,7 @@ def in_turns(runs, steps):
 
 
 def stages_of(run):
-    """Return {stage: median [ms]} of a run of ours, largest first; {} for others."""
+    """Return {stage: median [ms]} of a Hitbox run, largest first; {} for other runs."""
     kept = getattr(run, "stages", [])
     if not kept:
         return {}
@@ -381,7 +390,9 @@ def measure(name, quick):
 
 
 def show(name, found):
-    """Print the table of one scene. Return {scene, run / reference: ratio of the medians}."""
+    """Print the table of one scene. Return {"scene, run / reference": ratio of the medians}; the last run is the
+    reference.
+    """
     *others, reference = found
     base = median(found[reference][0])
     rows = []
@@ -394,7 +405,9 @@ def show(name, found):
 
 
 def run(quick=False):
-    """Print the tables; return {name: our time over the peer's, or over the same scene without what it measures}."""
+    """Print the tables; return {name: ratio}: Hitbox over the peer, or a scene over its variant without the measured
+    feature.
+    """
     ratios = {}
     for name in [*SCENES, *OWN]:
         ratios |= show(name, measure(name, quick))

@@ -1,8 +1,8 @@
-"""Results of a run of the benchmarks as one JSON object: ratios by name, the machine, and the disk space that the
-program needs there at run time.
+"""Results of the benchmarks as one JSON object: ratios by name, the machine, and the disk space of the installed
+libraries.
 
-A ratio is this project's time over the peer's in the same run, so less is better, and it is nearly the same on another
-machine.
+A ratio is this project's time over the peer's in the same run: less is better, and it is nearly the same on other
+machines.
 """
 
 import json
@@ -19,26 +19,28 @@ NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is 
 
 
 def to_record(ratios, quick):
-    """Return the record of a run as a dict. ratios: {bench: {name: our time over the peer's}}."""
+    """Return the record of a run as a dict. ratios: {benchmark: {name: our time over the peer's}}."""
     rounded = {bench: {name: float(f"{value:.4g}") for name, value in found.items()} for bench, found in ratios.items()}
     found = {"version": VERSION, "quick": quick, "machine": machine(), "installed_mb": round(installed() / 1e6)}
     return found | {"ratios": rounded}
 
 
 def installed():
-    """Return the bytes of the libraries that are used at run time and are installed."""
+    """Return the total size in bytes of the installed run-time libraries."""
     files = [metadata.distribution(name).files or () for name in LIBRARIES if version_of(name)]
     places = [Path(str(each.locate())) for some in files for each in some]
     return sum(place.stat().st_size for place in places if place.exists())
 
 
 def to_text(record):
-    """The file's text."""
+    """Return the text of the file for a record."""
     return json.dumps(record, indent=1) + "\n"
 
 
 def read_record(path):
-    """A kept record. Raises ValueError naming the file for anything else, OSError for a file that cannot be read."""
+    """Return the record in a file. Raises ValueError naming the file if it is no record,
+    OSError if it cannot be read.
+    """
     with open(path, encoding="utf-8") as file:
         try:
             record = json.load(file)
@@ -52,7 +54,7 @@ def read_record(path):
 
 
 def compared(kept, measured):
-    """Return a row (bench and name, kept ratio, measured ratio, the change) for every ratio that either record has."""
+    """Return a row (benchmark and name, stored ratio, measured ratio, change) for every ratio in either record."""
     rows = []
     for bench in dict.fromkeys([*kept["ratios"], *measured["ratios"]]):
         before, now = kept["ratios"].get(bench, {}), measured["ratios"].get(bench, {})

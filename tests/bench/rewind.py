@@ -1,9 +1,9 @@
-"""`python -m tests.bench.rewind [SCENE …] [--cpu]`: memory and time of ten seconds of rewind, scene by scene.
+"""`python -m tests.bench.rewind [SCENE …] [--cpu]`: memory and time of ten seconds of rewind for each scene.
 
-The memory is that of all stored data: in all, and per moving body and frame beyond 64 kB. The times are those of the
-slowest seek and the mean seek. Each key frame's last step is reached from the end, which takes the most steps, and then
-the step before it. --cpu measures seconds of this process instead of seconds on the clock, for a machine with other
-load; rewind itself then measures in the same way.
+The memory is that of all stored data: the total, and the part beyond 64 kB per moving body and frame. The times are
+those of the slowest and the mean seek. Each seek goes from the end to the last step before a key frame, which takes the
+most steps, and then to the step before it. --cpu measures processor seconds of this process instead of clock seconds,
+for a machine with other load; rewind itself then measures in the same way.
 """
 
 import argparse
@@ -23,7 +23,10 @@ SLOWEST = 0.1  # [s] that a seek may take
 
 
 def measured(name: str, clock) -> dict[str, float]:
-    """Return the figures of one scene by name: bytes in all and per body and frame, key frames, seek times [s]."""
+    """Return the figures of one scene by name: total bytes, bytes per body and frame, key frames, seek times [s].
+
+    clock: function that returns seconds.
+    """
     with patch("game.run.rewind.perf_counter", clock), patch("game.run.session.perf_counter", clock):
         session = Session(make_scene(name), BotSource())
         set_loaded_aside()  # as the game does when a scene begins
@@ -56,7 +59,7 @@ def measured(name: str, clock) -> dict[str, float]:
 
 
 def main() -> None:
-    """Measure, and print a line a scene."""
+    """Measure the scenes of the command line, and print a line for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenes", nargs="*", default=list(SCENES), metavar="SCENE")
     parser.add_argument("--cpu", action="store_true")

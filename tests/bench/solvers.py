@@ -25,7 +25,7 @@ PROJECTION_LIMIT = 20  # rows
 
 
 class Ours:
-    """A pyramid in a world of ours."""
+    """A pyramid in a Hitbox world."""
 
     def __init__(self, rows, solver, substeps, effects=EFFECTS):
         self.name = f"{solver} {substeps}" if solver != "projection" else solver
@@ -60,12 +60,12 @@ class Pymunk:
         )
 
     def depth(self):
-        """Return the overlap of the deepest contact. Called outside of the timed steps."""
+        """Return the overlap of the deepest contact [px]; it is called outside the timed steps."""
         return overlap_in(self.space)
 
 
 class Run:
-    """One solver's pyramid over the seconds: its times, and what became of it."""
+    """Run of one solver's pyramid: its step times and its state at the end."""
 
     def __init__(self, pile):
         self.pile, self.times = pile, []
@@ -88,7 +88,7 @@ class Run:
         self.gain = max(self.gain, self._energy() - self.energy)
 
     def settle(self):
-        """Measure the overlap at the end of the run, whether the pile has come to rest or not."""
+        """Measure the overlap at the end of the run, whether or not the pile has come to rest."""
         self.depth = self.pile.depth()
 
     def row(self, reference):
@@ -125,7 +125,10 @@ HEADER = (
 
 
 def measure(rows, seconds):
-    """Run all solvers on one pyramid, a second each in turns. Prints the table; returns {name: time over pymunk's}."""
+    """Run all solvers on one pyramid, a second each in turns. Print the table; return {name: time over pymunk's}.
+
+    rows: number of rows of the pyramid. seconds: simulated time.
+    """
     piles = [
         Ours(rows, solver, substeps) for solver in ("soft_step", "sequential_impulse") for substeps in (1, 2, 4, 8)
     ]
@@ -156,7 +159,8 @@ def measure_stages(every):
     """Measure the times of the stages of a step with four substeps. Print the table; return {name: narrow phase over
     step}.
 
-    The time of a pass is that of the whole stage divided by manifolds and passes, so it includes preparing and storing.
+    every: numbers of rows of the pyramids. The time of a pass is that of the solver stage divided by manifolds and
+    passes, so it includes preparing and storing.
     """
     lines, ratios = [], {}
     for rows in every:
@@ -187,7 +191,9 @@ def measure_stages(every):
 
 
 def measure_sleep(rows):
-    """Measure the time of a step awake and all asleep. Print the table; return {name: asleep over awake}."""
+    """Measure the time of a step with all bodies awake and with all asleep. Print the table; return {name: asleep over
+    awake}.
+    """
     lines, ratios, boxes = [], {}, rows * (rows + 1) // 2
     for solver in ("soft_step", "sequential_impulse"):
         awake, asleep = Ours(rows, solver, 4), Ours(rows, solver, 4, EFFECTS.with_(sleeping=True))
@@ -221,7 +227,7 @@ def measure_sleep(rows):
 
 
 def run(quick=False):
-    """Print the tables; return {name: time over pymunk's, narrow phase over step, asleep over awake}."""
+    """Print the tables; return {name: ratio}: time over pymunk's, narrow phase over step, asleep over awake."""
     ratios = {}
     every = ROWS[1:3] if quick else ROWS
     for rows in every:

@@ -1,4 +1,4 @@
-"""The stability study: every row of tests/stability/study/rows.py on each engine that is available here, in one run.
+"""The stability study: every row of tests/stability/study/rows.py on each available engine, in one run.
 
 python -m tests.bench stability                                  all rows, all engines
 python -m tests.bench stability --list                           the rows' names and limits
@@ -61,9 +61,9 @@ def line(name, limit, cells, quoted):
 
 
 def study(chosen, names, seeds):
-    """Play the rows, and print each row as it is done. seeds: number of seeds to play of each row, None for all.
+    """Simulate the rows, and print each row when it is finished. seeds: number of seeds of each row, None for all.
 
-    Returns {row: {limit, unit, source, engines: {name: its verdict}}}.
+    Returns {row: {limit, unit, source, engines: {name: its verdict}}}. chosen: rows. names: names of engines.
     """
     made, found, started = engines(), {}, perf_counter()
     played = {name: Played(made[name]) for name in names}
@@ -86,7 +86,7 @@ def study(chosen, names, seeds):
 
 
 def finite(value):
-    """Return a value in a form that JSON can hold: verdicts as dicts, nan and inf as texts."""
+    """Return a value in a form that JSON can represent: verdicts as dicts, NaN and inf as texts."""
     if isinstance(value, Verdict):
         value = asdict(value)
     if isinstance(value, dict):
@@ -95,15 +95,15 @@ def finite(value):
 
 
 def to_text(found, quick):
-    """The study as JSON, with the machine that it ran on."""
+    """Return the study as JSON text, with the machine on which it ran."""
     record = {"version": VERSION, "quick": quick, "machine": machine(), "rows": finite(found)}
     return json.dumps(record, indent=1) + "\n"
 
 
 def chosen_names(text, known, what):
-    """Return the known names that match any of the patterns in `text`, which are separated by commas.
+    """Return the known names that match any of the comma-separated patterns in `text`.
 
-    Raises ValueError for a pattern that no name matches.
+    Raises ValueError for a pattern that no name matches. what: kind of the names, for the message.
     """
     found = []
     for pattern in filter(None, text.split(",")):
@@ -129,7 +129,7 @@ def read_arguments(arguments):
 
 
 def main(arguments=None):
-    """Run the study. Returns 0 whatever it finds, 2 for a name that there is not or a file that cannot be written."""
+    """Run the study. Returns 0 whatever the figures, 2 for an unknown name or a file that cannot be written."""
     options = read_arguments(arguments)
     known = table()
     try:

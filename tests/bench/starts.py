@@ -1,10 +1,12 @@
-"""`python -m tests.bench.starts [SCENE ...] [--first] [--seconds 10] [--runs 5]`: from the start to play.
+"""`python -m tests.bench.starts [SCENE ...] [--first] [--seconds 10] [--runs 5]`: time from the start of the program to
+play.
 
 It runs the whole program in a process of its own, as a user starts it, under the dummy driver or on the display
-(--display). Without a scene: the title. Games are played by their bots; labs get no input. It prints medians over the
-runs. These are: seconds from the start of the process to the first picture, and steps and pictures a second in each of
-the first seconds. Further: milliseconds of a frame (p50, p99, longest) without the wait for the next, kernels compiled
-in the program itself, and seconds until all called kernels run compiled. --first: with an empty cache each time.
+(--display). Without a scene the title is measured. Games are played by their bots; labs get no input. It prints medians
+over the runs: seconds from the start of the process to the first picture, and steps and pictures in each of the first
+seconds. It also prints milliseconds of a frame (p50, p99, longest) without the wait for the next, the number of kernels
+compiled in the program itself, and seconds until all called kernels run compiled. --first starts each run with an empty
+cache.
 """
 
 import argparse
@@ -56,7 +58,7 @@ print(json.dumps({"frames": frames, "worked": worked, "ready": ready[:1], "compi
 
 
 def start(arguments, seconds, cache, display):
-    """Return the measurements that one run of the program prints about itself, a dict."""
+    """Run the program once and return the measurements that it prints about itself, a dict."""
     environment = {**os.environ, "HITBOX_CACHE_DIR": cache, "PYTHONPATH": str(ROOT)}
     with tempfile.TemporaryDirectory() as data:
         environment["HITBOX_DATA"] = data
@@ -74,7 +76,7 @@ def start(arguments, seconds, cache, display):
 
 
 def figures(found, seconds):
-    """Return the figures of one run by name."""
+    """Return the figures {name: value} of one run. found: result of `start`."""
     times = [at for at, _ in found["frames"]]
     steps, pictures = [0] * int(seconds), [0] * int(seconds)
     for (at, before), (_, after) in zip(found["frames"], found["frames"][1:], strict=False):
@@ -97,7 +99,7 @@ def figures(found, seconds):
 
 
 def main() -> None:
-    """Measure, and print a line a scene."""
+    """Measure the scenes of the command line, and print a line for each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenes", nargs="*", default=[""], metavar="SCENE")
     parser.add_argument("--first", action="store_true")

@@ -1,10 +1,10 @@
-"""Timing shared by the benchmarks: the best of several runs, and plain tables."""
+"""Timing functions shared by the benchmarks: the best of several runs, and printed tables."""
 
 from time import perf_counter
 
 
 def best_of(runs, function):
-    """Least seconds of several calls: what the machine can do when nothing else runs on it."""
+    """Return the least seconds of several calls, the time of the machine without other load."""
     least = float("inf")
     for _ in range(runs):
         start = perf_counter()
@@ -14,10 +14,10 @@ def best_of(runs, function):
 
 
 def best_in_turns(rounds, timed):
-    """Return {name: least seconds of a call} of several functions, all called in every round, so that load affects them
-    alike.
+    """Return {name: least seconds of a call} of several functions.
 
-    timed: {name: function that does the work once and returns its seconds}.
+    Every round calls all functions, so that other load affects them alike. timed: {name: function that does the work
+    once and returns its seconds}.
     """
     least = dict.fromkeys(timed, float("inf"))
     for _ in range(rounds):
@@ -27,7 +27,7 @@ def best_in_turns(rounds, timed):
 
 
 def table(title, header, rows):
-    """Print aligned columns; rows are as long as the header."""
+    """Print a title and aligned columns; every row has as many cells as the header."""
     lines = [[str(each) for each in row] for row in [header, *rows]]
     widths = [max(len(cell) for cell in column) for column in zip(*lines, strict=True)]
     print(f"\n{title}")

@@ -1,4 +1,4 @@
-"""Time of one test of two masks, without the step around it. Sprites of 32 px: a disc, a plane, and random pixels.
+"""Time of one overlap test of two masks without the rest of the step. Sprites of 32 px: a disc, a plane, random pixels.
 
 Snapped masks are tested by an AND of words, others by the exact test. Hits and misses are timed separately.
 """
@@ -25,7 +25,7 @@ NEAR = 2.0  # [px] a miss that is nearer is measured apart
 
 
 def sprites():
-    """Return {name: solid[row, col]} of 32 px each."""
+    """Return {name: pixels solid[row, col]} of three sprites of 32 px."""
     y, x = np.mgrid[0:SIZE, 0:SIZE] + 0.5 - SIZE / 2
     plane = (abs(x) < 3) | (abs(y - 1) < 3) | ((y > 10) & (abs(x) < 8))
     return {
@@ -74,20 +74,24 @@ class Pairs:
 
 
 def poses_around(rng, count):
-    """Offsets and angles at which two sprites of 32 px meet, nearly meet, or do not."""
+    """Return (count, 3) poses (x, y, angle) at which two sprites of 32 px overlap, nearly overlap, or do not."""
     away, way = rng.uniform(8.0, 46.0, count), rng.uniform(0.0, 7.0, count)
     return np.stack([away * np.cos(way), away * np.sin(way), rng.uniform(0.0, 7.0, count)], axis=1)
 
 
 def half_over(rng, count):
-    """Return offsets in whole pixels at which the boxes of two sprites share about half of each box."""
+    """Return (count, 3) poses in whole pixels, without rotation, at which the boxes of two sprites overlap by about
+    half.
+    """
     return np.concatenate(
         [rng.choice([-1.0, 1.0], (count, 2)) * rng.integers(6, 14, (count, 2)), np.zeros((count, 1))], 1
     )
 
 
 def is_near(solid, where):
-    """Return whether the second sprite meets the first when it is moved by up to 2 px in one of 16 directions."""
+    """Return whether the second sprite overlaps the first when it is moved by up to 2 px in one of 16 directions, per
+    pose.
+    """
     near = np.zeros(len(where), bool)
     for way in np.arange(16) * np.pi / 8:
         for step in (0.5 * NEAR, NEAR):
@@ -97,7 +101,7 @@ def is_near(solid, where):
 
 
 def time_overlap(solid, where):
-    """Return the seconds of a call of pygame's Mask.overlap, which tests at whole pixels only."""
+    """Return the seconds of a call of pygame's Mask.overlap, which tests at whole pixels only. where: poses."""
     mask = pygame.mask.from_surface(pygame.Surface((SIZE, SIZE)), 255)
     for y, x in zip(*np.nonzero(solid), strict=True):
         mask.set_at((int(x), int(y)))
@@ -111,7 +115,7 @@ def time_overlap(solid, where):
 
 
 def run(quick=False):
-    """Print the table; return {name: our time over pygame's Mask.overlap of the same sprites}."""
+    """Print the table; return {name: our time over that of pygame's Mask.overlap for the same sprites}."""
     rng, count, rows, ratios = np.random.default_rng(SEED), 1000 if quick else 4000, [], {}
     for name, solid in sprites().items():
         half = half_over(rng, count)

@@ -1,4 +1,4 @@
-"""Fuzz for some minutes: `python -m tests.fuzz --minutes N [--seed S] [--workers N]`."""
+"""Command `python -m tests.fuzz --minutes N [--seed S] [--workers N]`: run random programs for some minutes."""
 
 import argparse
 import multiprocessing
@@ -10,7 +10,9 @@ from tests.fuzz.shrinking import shrink
 
 
 def worker(first, apart, until, found):
-    """Run the programs first, first + apart, ... until the clock says so; put what fails into a queue."""
+    """Run the programs of the seeds first, first + apart, ... until the time `until`; put failures into the queue
+    `found`.
+    """
     kinds, done = set(), 0
     for seed in range(first, first + 10**9, apart):
         if time.time() > until:
@@ -25,7 +27,7 @@ def worker(first, apart, until, found):
 
 
 def main():
-    """Returns how many kinds of failures were found."""
+    """Run the processes and print the shortened failing programs. Return the number of kinds of failures found."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("--minutes", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=0, help="of the first program; the others follow")

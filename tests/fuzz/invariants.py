@@ -1,6 +1,6 @@
-"""Invariants after every line of every program: numbers, normals, handles, events, contacts.
+"""Invariants checked after every line of every program: numbers, normals, handles, events, contacts.
 
-They read the tables and call the public functions; they are independent of the implementation of a step.
+The checks read the tables and call public functions; they do not depend on the implementation of a step.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ STATIC, DYNAMIC = 0, 2
 
 
 class Broken(AssertionError):
-    """An invariant does not hold; its name, and what was found."""
+    """Error: an invariant does not hold; it has the name of the invariant and the values found."""
 
     def __init__(self, name, found=""):
         super().__init__(f"{name}: {found}")
@@ -23,13 +23,13 @@ class Broken(AssertionError):
 
 
 def hold(condition, name, found=""):
-    """Raises Broken unless a condition holds."""
+    """Raise Broken with this name and these values unless the condition holds."""
     if not condition:
         raise Broken(name, found)
 
 
 class Watch:
-    """Checks of one world's invariants. It stores the pairs that have begun to touch."""
+    """Checks of one world's invariants; it tracks the pairs that have begun to touch."""
 
     def __init__(self, world):
         self.world = world
@@ -37,11 +37,11 @@ class Watch:
         self.kept = None  # the two, when the snapshot was taken
 
     def before(self):
-        """Record the state that a wrong call must not change."""
+        """Return the state that a refused call must not change."""
         return self.world.digest()
 
     def unchanged(self, before, error):
-        """Raises Broken when a call that raised has changed the world."""
+        """Raise Broken if a call that raised an error has changed the world. before: result of `before`."""
         hold(self.world.digest() == before, "a wrong call changes nothing", repr(error))
         self.handles()
 
@@ -65,13 +65,13 @@ class Watch:
             self.as_the_shapes_are()
 
     def alike(self, twin):
-        """Raise Broken if a world that was restored from a snapshot of this one differs from this world."""
+        """Raise Broken if `twin`, a world restored from a snapshot of this one, differs from this world."""
         hold(twin.digest() == self.world.digest(), "a restored world goes on alike")
 
     # --- numbers ---------------------------------------------------------------------------------------------------
 
     def numbers(self):
-        """Check U1 and U2, sleeping contacts included, and that contacts push."""
+        """Check U1 and U2, also for sleeping contacts, and that no contact pulls."""
         world = self.world
         for name, bad in (
             ("numbers are finite", not_finite(world, sleeping=True)),
@@ -109,7 +109,7 @@ class Watch:
     # --- contacts and events ---------------------------------------------------------------------------------------
 
     def contacts(self):
-        """Check that candidates and contacts are of shapes that exist, on two bodies that may collide (U10)."""
+        """Check that candidates and contacts have existing shapes of two bodies that may collide (U10)."""
         world = self.world
         pairs = world.candidates
         once = len(np.unique(pairs, axis=0)) == len(pairs) and (pairs[:, 0] < pairs[:, 1]).all()
@@ -133,7 +133,10 @@ class Watch:
         return found[0]
 
     def events(self, before, begin, end, persist):
-        """Check that each pair begins when it did not touch, then persists or ends. Return the touching pairs."""
+        """Check that each pair begins only if it did not touch, then persists or ends. Return the pairs that touch now.
+
+        before: pairs that touched before. begin, end, persist: names of the event arrays (persist may be None).
+        """
         told = {name: self._pairs(name) for name in (begin, end, persist) if name}
         for name, pairs in told.items():
             hold(len(set(pairs)) == len(pairs), f"{name} is told once of a pair", pairs)

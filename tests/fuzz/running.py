@@ -1,4 +1,4 @@
-"""Runs the lines of a program one by one, looks at the world after each, and says where and how it went wrong."""
+"""Runs the lines of a program one by one, checks the world after each, and describes the first failure."""
 
 import linecache
 import random
@@ -22,7 +22,7 @@ PROGRAM = "<program>"
 
 
 class Failure(NamedTuple):
-    """Failure of a program: its kind in one line; the place, and all details."""
+    """Failure of a program: its kind in one line, the line number, and all details."""
 
     kind: str
     line: int
@@ -30,12 +30,12 @@ class Failure(NamedTuple):
 
 
 def space_of():
-    """The namespace that programs are run in."""
+    """Return the namespace in which programs are run: NumPy as np, and the exports of physics."""
     return {"np": np, **{name: getattr(physics, name) for name in physics.__all__}}
 
 
 def is_documented(error):
-    """Return whether an error was raised by physics with a raise, for an invalid argument."""
+    """Return whether an error is a documented one: raised by a raise statement in physics for an invalid argument."""
     if not isinstance(error, (ValueError, TypeError, RuntimeError, KeyError)):
         return False
     last = traceback.extract_tb(error.__traceback__)[-1]
@@ -46,14 +46,16 @@ def is_documented(error):
 
 
 class Runner:
-    """Runs lines in a namespace of its own. strategy: the broad phase to use instead of all that are named."""
+    """Runs lines in its own namespace. strategy: broad phase that replaces all that the lines name; None for those
+    named.
+    """
 
     def __init__(self, strategy=None):
         self.space, self.watch, self.strategy = space_of(), None, strategy
         self.lines, self.digests = [], []
 
     def run(self, line):
-        """Run one line, with the looks that belong to it. Returns a Failure or None."""
+        """Run one line with its checks. Returns a Failure, or None if all is correct."""
         self.lines.append(line)
         if self.strategy is not None and line.startswith("world.broadphase ="):
             line = "pass"
@@ -105,7 +107,7 @@ class Runner:
                 self._forget_twin(line)
 
     def _step_twin(self, line):
-        """Step the twin that was restored from a snapshot, and check that it still equals the world."""
+        """Step the restored copy of the world, if there is one, and check that it still equals the world."""
         if "twin" in self.space:
             exec(line.replace("world", "twin"), self.space)
             self.watch.alike(self.space["twin"])
@@ -129,7 +131,10 @@ def run_lines(lines, strategy=None):
 
 
 def failure_of(lines, strategy=None):
-    """Return the failure of a program, None if it passes. strategy: the other broad phase, whose end must be equal."""
+    """Return the failure of a program, or None if it passes.
+
+    strategy: another broad phase with which the program is run again; all digests must be equal.
+    """
     failure, runner = run_lines(lines)
     if failure or strategy is None:
         return failure
@@ -158,7 +163,7 @@ def write_program(seed, lines=LINES):
 
 
 def script_of(lines, strategy=None):
-    """A program as it can be pasted into a test."""
+    """Return the text of a program that can be pasted into a test."""
     text, alike = ["import numpy as np", "from physics import *", ""], False
     for line in lines:
         text.append(line)

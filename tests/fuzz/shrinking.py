@@ -1,4 +1,4 @@
-"""Makes a program that fails as short as it can: fewer lines first, then simpler lines, while it fails alike."""
+"""Shortens a failing program: fewer lines first, then simpler lines, while it fails in the same way."""
 
 import re
 
@@ -9,7 +9,9 @@ ARGUMENT = re.compile(r", (?:\w+=)(?:'[^']*'|[\w.]+(?:\([^()]*\))?|\([^()]*\)|-?
 
 
 def shrink(lines, failure, strategy=None, tries=4000):
-    """The lines of a shorter program with the same kind of failure."""
+    """Return the lines of a shorter program with the same kind of failure. tries: greatest
+    number of programs to run.
+    """
     left = [tries]
 
     def fails(candidate):
@@ -30,7 +32,11 @@ def shrink(lines, failure, strategy=None, tries=4000):
 
 
 def fewer_lines(lines, fails):
-    """Leave out runs of lines, of half the length in each round (delta debugging)."""
+    """Return the lines without runs of lines that are not needed; the runs are half as long in each round (delta
+    debugging).
+
+    fails: function that tells whether a list of lines still fails in the same way.
+    """
     size = max(len(lines) // 2, 1)
     while size:
         at = len(lines)
@@ -45,7 +51,7 @@ def fewer_lines(lines, fails):
 
 
 def shorter_loops(lines, fails):
-    """Reduce the number of rounds of each loop. A loop of one round becomes its body."""
+    """Return the lines with fewer rounds of each loop; a loop of one round becomes its body."""
     for at, line in enumerate(lines):
         found = re.match(r"for _ in range\((\d+)\): (.*)", line)
         for rounds in (1, 2, 3, 5, 8, 12, 20, 30) if found else ():
@@ -58,7 +64,7 @@ def shorter_loops(lines, fails):
 
 
 def simpler_lines(lines, fails):
-    """Leave out arguments that the failure does not need, and round numbers."""
+    """Return the lines without arguments that the failure does not need, and with rounded numbers."""
     for at in range(len(lines)):
         for pattern, simpler in ((ARGUMENT, lambda text: [""]), (NUMBER, _rounder)):
             number = 0

@@ -1,4 +1,4 @@
-"""Random programs over the whole API: nothing breaks, and what does is shown in a few lines."""
+"""Random programs over the whole API keep all invariants, and a failure is shown as a few lines."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,10 @@ PARTS = 12  # so that several processes share them; the first three in every run
     "part", [0, 1, 2, *(pytest.param(part, marks=pytest.mark.nightly) for part in range(3, PARTS))]
 )
 def test_random_programs_keep_the_invariants(part):
-    """A failure shows the shortest program found: paste it into tests/regress, and mend what it shows."""
+    """Random programs keep the invariants.
+
+    A failure shows the shortest program found, as the text of a regression test.
+    """
     for seed in range(part, PROGRAMS, PARTS):
         lines, failure, strategy = write_program(seed, LONG)
         if failure is not None:
@@ -29,7 +32,7 @@ def test_programs_are_the_same_every_time():
 
 
 def test_wrong_calls_are_no_failure():
-    """Calls that are documented to raise do so, and change nothing."""
+    """Calls with documented errors raise them and change nothing, and do not count as failures."""
     failure, runner = run_lines(
         [
             "world = World()",
@@ -59,7 +62,7 @@ PROGRAM = [
 
 
 def test_broken_world_is_found_and_shown_in_three_lines(monkeypatch):
-    """A speed that is written wrong in the third step: what is left is a world, a body and its steps."""
+    """A program whose third step writes a wrong speed fails, and is shortened to a world, a body and its steps."""
     step = World.step
 
     def wrong(self, dt=None):
@@ -78,7 +81,7 @@ def test_broken_world_is_found_and_shown_in_three_lines(monkeypatch):
 
 
 def test_error_that_nobody_raised_is_a_failure(monkeypatch):
-    """A TypeError of NumPy's or Python's own is no answer to a wrong argument."""
+    """A TypeError that NumPy or Python raises for a wrong argument counts as a failure."""
     monkeypatch.setattr(World, "ray_cast_all", lambda self, origin, way: len(origin) + way)
     failure = failure_of(PROGRAM)
     assert failure is not None and failure.kind.startswith("TypeError in test_fuzz.py")

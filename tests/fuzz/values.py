@@ -1,4 +1,4 @@
-"""Random values as source text: numbers with few digits, shapes of all kinds, filters, materials, effects."""
+"""Random values as source text: numbers with few digits, shapes of all kinds, filters, materials and effects."""
 
 from dataclasses import fields
 
@@ -19,7 +19,7 @@ STILL = (*MOVING, "segment", "chain", "tiles", "open_mask")
 
 
 class Values:
-    """Draws from a random.Random."""
+    """Generator of random values from a random.Random."""
 
     def __init__(self, rng, one_way=True):
         self.rng, self.one_way = rng, one_way  # one_way: whether shapes may be open from below
@@ -28,7 +28,7 @@ class Values:
         return self.rng.random() < share
 
     def number(self, low, high):
-        """Return a number in low .. high, mostly of four digits, sometimes whole, so that shapes touch exactly."""
+        """Return a number in low .. high, mostly of four digits; some are integers, so that shapes touch exactly."""
         value = self.rng.uniform(low, high)
         return float(round(value)) if self.chance(0.3) else float(f"{value:.4g}")
 
@@ -36,7 +36,9 @@ class Values:
         return (self.number(-reach, reach), self.number(-reach, reach))
 
     def place(self):
-        """Return a place near the others; now and then on a grid, where shapes lie side by side, or far out."""
+        """Return a random position: mostly near the others, some on a grid, where shapes lie side by side, a few far
+        away.
+        """
         if self.chance(0.3):
             return (8.0 * self.rng.randint(-12, 12), 8.0 * self.rng.randint(-12, 12))
         return self.pair(1e6) if self.chance(0.01) else self.pair(120.0)
@@ -51,7 +53,7 @@ class Values:
         return self.rng.choice((0.0, 1e-6, 0.004, 1 / 120, 1 / 60, 1 / 30, 0.1))
 
     def effects(self):
-        """Names of a valid set of effects."""
+        """Return the names of a random valid set of effects."""
         if JIT:
             return list(self.rng.choice(FAMILIES))
         names = [field.name for field in fields(Effects) if self.chance(0.6)]
@@ -65,7 +67,10 @@ class Values:
     # --- shapes ----------------------------------------------------------------------------------------------------
 
     def shape(self, kind="dynamic", also_wrong=0.02):
-        """Return a shape that a body of a kind may have; now and then one that it may not have."""
+        """Return the text of a random shape that a body of a kind may have.
+
+        also_wrong: probability of a shape from all kinds, which a dynamic body may not have.
+        """
         of_all = kind != "dynamic" or self.chance(also_wrong)
         text = getattr(self, "_" + self.rng.choice(STILL if of_all else MOVING))()
         if self.chance(0.08):

@@ -1,4 +1,4 @@
-"""Writes the next line of a random program, seeing the world as it is: most lines are right, some are not."""
+"""Writes the next line of a random program, knowing the present world: most lines are valid, some are not."""
 
 import re
 
@@ -12,7 +12,7 @@ STEP = 12  # of so many lines and this many, this many are steps
 
 
 class Writer:
-    """Writes lines for a namespace in which the lines before have been run."""
+    """Writes lines for a namespace in which the previous lines have been run."""
 
     def __init__(self, rng):
         self.rng, self.values, self.named = rng, Values(rng), 0
@@ -20,7 +20,7 @@ class Writer:
         self.asks = [getattr(self, name) for name in sorted(dir(self)) if name.startswith("ask_")]
 
     def first(self):
-        """The line that makes the world."""
+        """Return the line that makes the world."""
         v, rng = self.values, self.rng
         names = v.effects()
         self.stacking = "stacking" in names
@@ -38,7 +38,7 @@ class Writer:
         return f"world = World(Effects({said}), {rng.choice(STRATEGIES)}, {', '.join(more)})"
 
     def next(self, space):
-        """Return the next line of the program."""
+        """Return the next line of the program. space: the namespace."""
         self.space, self.world = space, space["world"]
         kind = self.rng.random()
         if len(self.world) < 3 or kind < 0.1:
@@ -56,7 +56,9 @@ class Writer:
         return self.rng.choice(self.edits)(self.rng.choice(bodies or [f"world.body({len(self.world)})"]))
 
     def _living(self, pattern, start=0):
-        """Return the names of the handles that match a pattern and whose body is in the world."""
+        """Return the names in the namespace that match a pattern and whose body is in the world, from position `start`
+        on.
+        """
         found = []
         for name, value in self.space.items():
             if re.fullmatch(pattern, name) and getattr(value, "body", value) in self.world:

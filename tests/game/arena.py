@@ -1,4 +1,4 @@
-"""Small scenes for the shell's tests: two discs pushed about, one counter, one random number a step."""
+"""Small scenes for the shell's tests: two discs, of which one is steered, a counter, and one random number a step."""
 
 from game.errors import FileError
 from game.scene import Goal, Result, Scene, Slider
@@ -6,7 +6,7 @@ from physics import Circle, Effects
 
 
 class Arena(Scene):
-    """Two discs; the first is steered, the second rests in its way."""
+    """Scene with two discs; the first one is steered, the second one rests in its path."""
 
     name = "arena"
     title = "Arena"
@@ -47,7 +47,7 @@ class Arena(Scene):
 
 
 class Race(Arena):
-    """A game: it is won when the discs meet and lost after LAST frames; points for every frame steered."""
+    """A game that is won when the discs meet and lost after LAST frames; each steered frame gives a point."""
 
     name = "race"
     title = "Race"
@@ -79,7 +79,7 @@ class Race(Arena):
 
 
 class Dash(Race):
-    """The same, against the clock."""
+    """The game Race, ranked by time."""
 
     name = "dash"
     title = "Dash"

@@ -1,4 +1,4 @@
-"""The shell's tests have a data folder of their own."""
+"""Fixtures that give each test of the shell its own data folder, and a driver for the whole program."""
 
 import pygame
 import pytest
@@ -16,7 +16,9 @@ def data_folder_of_the_test(tmp_path, monkeypatch):
 
 @pytest.fixture
 def drive(monkeypatch):
-    """Return drive(*arguments), which starts the whole program under the dummy driver."""
+    """Yield a function drive(*arguments, **more), which starts the whole program under the dummy video driver
+    (`Driver`).
+    """
     pygame.display.init()
     yield lambda *arguments, **more: Driver(monkeypatch, *arguments, **more)
     pygame.event.clear()

@@ -1,8 +1,8 @@
-"""Common base of the scenes for tests of the shell: their worlds are stepped, with nothing else."""
+"""Common base class of scenes for tests of the shell, whose worlds are stepped without anything else."""
 
 
 class Plain:
-    """Base class beside game.scene.Scene that steps the worlds on a plain ground, without goals, bot and state."""
+    """Mixin for game.scene.Scene that steps the worlds on a plain background, without goals, bot and state."""
 
     def update(self, inputs):
         for world in self.worlds:

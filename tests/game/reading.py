@@ -1,4 +1,6 @@
-"""Measures the text of a picture: no two lines on each other, none outside, and each stands out from its ground."""
+"""Checks of the text in a picture: lines must not overlap or leave the picture, and must contrast with their
+background.
+"""
 
 from itertools import combinations
 
@@ -13,7 +15,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def assert_text_is_apart(boxes, picture):
-    """Assert that each box is inside the picture, and that no two boxes overlap."""
+    """Assert that each box is inside the picture and that no two boxes overlap. boxes: (rectangle, text) pairs."""
     for rect, text in boxes:
         assert picture.contains(rect), f"{text!r} at {rect} leaves {picture}"
     for (a, text_a), (b, text_b) in combinations(boxes, 2):
@@ -21,18 +23,18 @@ def assert_text_is_apart(boxes, picture):
 
 
 def luminance(colors):
-    """Relative luminance 0..1 of RGB colours 0..255 (WCAG)."""
+    """Return the relative luminance 0..1 of RGB colours 0..255 (WCAG)."""
     share = np.asarray(colors, float)[..., :3] / 255
     return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4) @ LUMINANCE
 
 
 def contrast(a, b):
-    """Contrast ratio of two luminances, 1..21."""
+    """Return the contrast ratio of two luminances, 1..21 (WCAG)."""
     return (np.maximum(a, b) + 0.05) / (np.minimum(a, b) + 0.05)
 
 
 class Reader:
-    """Notes every line of text that is drawn while it watches: `with Reader() as reader:`."""
+    """Records every line of text that is drawn in its with block: `with Reader() as reader:`."""
 
     def __enter__(self):
         self.lines, self.before = [], (Canvas.text, Canvas.text_if_free)
@@ -56,7 +58,7 @@ class Reader:
         Canvas.text, Canvas.text_if_free = self.before
 
     def assert_readable(self):
-        """Assert that each line in the boxes of its canvas is still visible, and stands out from its background."""
+        """Assert that each recorded line is still visible and contrasts with its background."""
         for canvas, rect, line, color in self.lines:
             if any(box == rect and text == line for box, text in canvas.boxes) and line.strip():
                 share = share_that_stands_out(canvas.surface, rect, color)
@@ -66,9 +68,8 @@ class Reader:
 
 
 def share_that_stands_out(surface, rect, color):
-    """Return the share of the pixels beside the letters that are far enough from the letters' colour.
-
-    The share is 0 if the letters are covered.
+    """Return the share of pixels near the letters that contrast enough with the letters'
+    colour; 0 if they are covered.
     """
     around = rect.inflate(2, 2).clip(surface.get_rect())
     pixels = pygame.surfarray.array3d(surface.subsurface(around)).astype(int)

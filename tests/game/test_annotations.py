@@ -1,4 +1,4 @@
-"""Every public callable of game/ says what it takes and what it gives; no screen is asked for its class."""
+"""Every public callable of game/ annotates its parameters and its result, and no code tests the class of a screen."""
 
 import ast
 from pathlib import Path
@@ -19,7 +19,7 @@ def public_callables(node, owner=""):
 
 
 def unannotated(function):
-    """Names of the parameters without a type, and "return" where that is missing."""
+    """Return the names of the parameters without a type, and "return" if the result has none."""
     given = function.args
     parameters = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
     names = [each.arg for each in parameters if each is not None and each.annotation is None]
@@ -41,7 +41,7 @@ def test_what_lacks_a_type_is_seen():
 
 
 def class_questions(source, classes):
-    """Lines that ask isinstance about one of the classes."""
+    """Yield the line numbers of isinstance calls with one of the class names."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance":
             asked = {each.id for each in ast.walk(node.args[1]) if isinstance(each, ast.Name)}

@@ -1,4 +1,4 @@
-"""The window's program driven from end to end by posted events: keyboard, controller, mouse."""
+"""The program with its window, driven from start to end by posted events of keyboard, controller and mouse."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Every flag: what it does, and the one line it says when it is wrong."""
+"""Every command-line flag: its effect, and its one-line message for a wrong value."""
 
 import json
 import os

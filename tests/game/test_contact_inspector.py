@@ -1,4 +1,6 @@
-"""Why do they touch? A click on a contact of a frozen scene: the pair's way through the step, with true numbers."""
+"""The contact inspector: a click on a contact of a paused scene shows its pair through all stages, with correct
+numbers.
+"""
 
 import numpy as np
 import pygame
@@ -156,7 +158,10 @@ def test_a_running_scene_is_not_asked(frozen):
 
 
 def test_a_mask_that_rests_by_its_parts_is_explained():
-    """The program ended: what is told of a mask has its own id, what its parts touch in has theirs."""
+    """A contact of a mask that rests on its outline parts is explained; it once ended the program.
+
+    The mask and the parts by which it touches have different ids.
+    """
     world = World(Effects.rigid_bodies(), gravity=(0.0, 320.0))
     table = np.ones((12, 40), bool)
     table[4:, 5:35] = False  # on two legs

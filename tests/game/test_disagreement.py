@@ -1,4 +1,4 @@
-"""False hits of boxes: the pairs that the layer shows are those that a slow test of every pair finds."""
+"""The overlay of false hits of boxes shows exactly the pairs that a test of every pair finds."""
 
 from itertools import combinations
 
@@ -23,7 +23,7 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of w
 
 
 def corner(flipped=False):
-    """An L of 8 x 8 px, the upper right or the lower left quarter of which is empty."""
+    """Return an L-shaped mask of 8 x 8 px. flipped: True leaves the lower left quarter empty, False the upper right."""
     solid = np.ones((8, 8), bool)
     solid[:4, 4:] = False
     return PixelMask(solid[::-1, ::-1] if flipped else solid, origin=(4, 4))
@@ -64,10 +64,10 @@ def test_who_is_not_to_meet_is_not_asked():
 
 @pytest.fixture(scope="module")
 def flown():
-    """Fly the shooter by its bot, with the layer on. Return (pairs, texts, overlays).
+    """Play the shooter by its bot with the overlay on. Return (pairs, texts, overlays).
 
-    pairs: for some steps, (ids of the false hits by the slow test, ids by the layer); texts: for each new mark, whether
-    the picture has a text about it.
+    pairs: for some steps, (ids of the false hits by a test of every pair, ids by the overlay). texts: for each new
+    mark, whether the picture has a text about it.
     """
     scene = Registry(SCENES).scene_class("shooter")(seed=1)
     session, overlays = Session(scene, BotSource()), Overlays(["disagreement"])
@@ -119,37 +119,37 @@ def test_the_players_own_box_would_have_died(flown):
 
 
 class Visit(Scene):
-    """Scene in which a corner comes into the box of the player's corner, by `depth` steps of 4 px, and goes back."""
+    """Scene in which another corner moves into the box of the player's corner in `depth` steps of 4 px, and back."""
 
     name, title, about, effects = "test/visit", "Visit", "", Effects()
     depth = 2
 
     def build(self):
-        """Two corners."""
+        """Add the two corners."""
         world = self.add_world()
         self.mine = world.add_body(corner(), kind="kinematic")
         self.other = world.add_body(corner(True), position=(12.0, -12.0), kind="kinematic")
 
     def update(self, inputs):
-        """Move the other corner there, or back."""
+        """Move the other corner in, later out again."""
         way = 1 if self.frame < self.depth else -1
         self.other.velocity = (-240.0 * way, 240.0 * way)
         self.world.step()
 
     @property
     def own_body(self):
-        """Return the id of its own body."""
+        """Return the id of the player's body."""
         return self.mine.id
 
     def draw(self, canvas, alpha):
-        """No picture."""
+        """Draw nothing."""
 
     def check(self):
-        """No goals."""
+        """Return no goals."""
         return []
 
     def bot(self):
-        """No keys."""
+        """Return no keys."""
         return frozenset()
 
     def state(self):

@@ -1,4 +1,4 @@
-"""Dragging: what can be held, how it follows the pointer, and that a recording holds the drag."""
+"""Dragging: which bodies can be held, how they follow the pointer, and that a recording contains the drag."""
 
 from math import hypot
 
@@ -24,7 +24,7 @@ PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacki
 
 
 class Yard(Plain, Scene):
-    """A floor, a box on it, a thin card, a wall, a lift; two views."""
+    """Scene with a floor, a box on it, a thin card, a wall and a lift, in two views."""
 
     name, title, about = "yard", "Yard", "For tests."
     effects = PILE
@@ -51,7 +51,7 @@ class Yard(Plain, Scene):
 
 
 class Shut(Yard):
-    """The same, but nothing can be dragged."""
+    """The scene Yard without draggable bodies."""
 
     draggable = False
 
@@ -69,7 +69,7 @@ def drive(frames, steps=None, scene=None):
 
 
 def path(start, end, steps):
-    """Pointer frames from start to end, held."""
+    """Return input frames in which the pressed pointer moves from start to end in `steps` steps."""
     return [
         InputFrame(
             pointer=(
@@ -217,7 +217,7 @@ def test_the_pointer_is_shown_where_it_can_drag():
 
 
 class Sky(Yard):
-    """A world in which nothing is pushed: one disc on its way."""
+    """Scene without response: one flying disc."""
 
     effects = Effects(sensors=True)
 

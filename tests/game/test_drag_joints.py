@@ -1,4 +1,6 @@
-"""Dragging in worlds with joints: a Target pulls, without overshoot, through no wall, and lets its body sleep."""
+"""Dragging in worlds with joints: a Target joint pulls without overshoot, not through walls,
+and lets its body sleep.
+"""
 
 from math import cos, hypot, pi, sin
 
@@ -25,7 +27,7 @@ FASTEST = 0.5 * 2.0 * pi * HERTZ * LEASH * METER  # [px/s] at which the leash an
 
 
 class Place:
-    """A camera that shows the world one to one, however far the pointer is."""
+    """Camera that shows the world at a scale of 1, with a view so large that the pointer is always inside."""
 
     x = y = -100_000.0
     zoom = 1.0
@@ -36,7 +38,7 @@ class Place:
 
 
 class Yard(Plain, Scene):
-    """A floor, a box on it, a wall, and a chain that hangs beside it."""
+    """Scene with a floor, a box on it, a wall, and a chain that hangs beside it."""
 
     name, title, about = "jointed yard", "Yard", "For tests."
     effects = JOINTED
@@ -54,7 +56,7 @@ class Yard(Plain, Scene):
 
 
 class Rigid(Yard):
-    """The same without joints in its effects."""
+    """The scene Yard without joints in its effects."""
 
     effects = Effects.rigid_bodies()
 
@@ -66,7 +68,10 @@ class Rigid(Yard):
 
 
 def pull(world, body, grip, pointer, steps, drag=None, each=lambda: None):
-    """Hold the body at a grip (world px) and pull it to the pointer: the Drag, after so many steps."""
+    """Hold a body at the point `grip` (world px) and pull it to the pointer. Return the Drag after `steps` steps.
+
+    drag: an earlier Drag to continue, or None. each: function called after every step.
+    """
     drag, view = drag or Drag(), [(world, Place())]
     inputs = InputState()
     if drag.holds:
@@ -253,7 +258,7 @@ def test_a_recorded_drag_comes_back_bit_for_bit(tmp_path, strategy):
 
 @pytest.mark.parametrize("back", [1, 8, 20, 45, 60])
 def test_rewinding_into_a_drag_goes_on_with_it(back):
-    """A seek restores the Target with the hold, or neither."""
+    """Rewinding to a step within a drag restores the Target joint and the hold, or neither."""
     scene = Yard(seed=1)
     session = Session(scene, ScriptSource(SCRIPT))
     rewind = Rewind(session)

@@ -1,4 +1,4 @@
-"""Text is measured, labels keep out of each other's way, the presenter maps both ways."""
+"""Drawing: text is measured, labels avoid each other, and the presenter maps positions in both directions."""
 
 import pygame
 import pytest
@@ -52,7 +52,9 @@ def test_rounding_is_half_up_on_both_sides_of_zero():
 )
 @pytest.mark.parametrize("docked", [False, True])
 def test_presenter_scales_and_maps_back(size, docked):
-    """By a whole number alone, and beside a panel by all that the panel leaves."""
+    """The presenter scales by an integer, or beside a panel by the space that the panel leaves, and maps positions
+    back.
+    """
     presenter = Presenter(pygame.Surface(size))
     presenter.docked = docked
     canvas = Canvas()

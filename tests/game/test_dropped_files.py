@@ -1,4 +1,4 @@
-"""Files dropped on the window: pictures go to the ladder, what cannot be used leaves the game that goes on."""
+"""Files dropped on the window: pictures open in lab/ladder, and unusable files do not end the running game."""
 
 import pygame
 

@@ -1,4 +1,4 @@
-"""The numbers of a scene as CSV: from F9 in a game, and from --csv, each with a command that finds it again."""
+"""The numbers of a scene as CSV, by F9 in a game and by --csv, each with a command that reproduces it."""
 
 import csv
 import io

@@ -1,4 +1,6 @@
-"""Every lab ends in a finding: what it still needs, then what it has measured in this run, read whole at every size."""
+"""Every lab ends with a finding: first what is still to be measured, then the result of this run, readable at every
+size.
+"""
 
 import re
 from itertools import count
@@ -44,7 +46,9 @@ costs = count(1)
 
 
 def tiers_of(request):
-    """Return figures of two sprites, from few poses and some tiers only. Other tests measure them in full."""
+    """Return measurements {tier: figures} of a pair of sprites from few poses and some tiers;
+    other tests measure all.
+    """
     found = {}
     poses = poses_around(*request, count=200)
     measure_at(
@@ -54,7 +58,7 @@ def tiers_of(request):
 
 
 def figures_of(scene):
-    """Return figures in place of the measurements beside the game, with costs of their own."""
+    """Return made-up figures for the measurement request of a scene, in place of real measurements."""
     request = scene.measured()
     if isinstance(request, SpriteRequest):
         return tiers_of(request)
@@ -68,7 +72,7 @@ def figures_of(scene):
 
 
 def know(play):
-    """Give a played scene its figures, as the measuring process would."""
+    """Give the scene of a Play its figures, as the measuring process would."""
     if play.scene.measured() is not None:
         play.scene.figures = play.measuring.bench.figures = figures_of(play.scene)
         request = play.scene.measured()
@@ -80,7 +84,7 @@ def has_found(finding):
 
 
 def read_whole(play, finding):
-    """Check at every size of the window that the open card shows the whole finding."""
+    """Assert at every size of the window that the open card shows the complete finding."""
     for size in SIZES:
         play.hint = LabCard(play.scene)
         frame = play.draw(Picture(pygame.Surface(size)))

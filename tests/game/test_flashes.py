@@ -1,7 +1,7 @@
 """Flashes of the whole picture: at most three a second in any game, and none if the player has switched them off.
 
-A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker
-side under 0.8, over a quarter of the picture or more.
+A flash is defined as in WCAG 2.1: a pair of opposing changes of a tenth or more of the full relative luminance. The
+darker state is below 0.8, and the change covers a quarter of the picture or more.
 """
 
 import numpy as np
@@ -27,13 +27,15 @@ AREA = 0.25  # of the picture
 
 
 def squares(surface):
-    """Luminance of each square of a canvas, by its mean colour: all its pixels would take ten times as long."""
+    """Return the luminance of each square block of a canvas, from its mean colour, which is ten times as fast as all
+    pixels.
+    """
     width, height = surface.get_size()
     return luminance(pygame.surfarray.array3d(pygame.transform.smoothscale(surface, (width // BLOCK, height // BLOCK))))
 
 
 class FlashMeter:
-    """Counts the general flashes of a run of pictures. Each square remembers its last turning point."""
+    """Counts the general flashes in a sequence of pictures. Each square stores its last turning point of luminance."""
 
     def __init__(self):
         self.low = self.high = self.way = None
@@ -41,7 +43,7 @@ class FlashMeter:
         self.now = 0
 
     def see(self, light):
-        """Take the next picture's squares."""
+        """Process the luminances of the next picture's squares."""
         if self.way is None:
             self.low, self.high, self.way = light.copy(), light.copy(), np.zeros(light.shape, int)
         self.low, self.high = np.minimum(self.low, light), np.maximum(self.high, light)
@@ -95,7 +97,7 @@ def test_flashes_are_limited_whoever_asks():
 
 
 def lights_of(name, steps, accessibility, seed=1):
-    """Return the FlashMeter that has seen each picture of a bot's run."""
+    """Return the FlashMeter after all pictures of a bot's run."""
     scene = Registry(SCENES).scene_class(name)(seed=seed)
     scene.set_accessibility(accessibility)
     source, inputs, picture, overlays = BotSource(), InputState(), Picture(pygame.Surface((480, 270))), Overlays(())

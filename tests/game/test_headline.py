@@ -1,4 +1,4 @@
-"""Every lab has a headline: one sentence, and one large number with its unit, measured in this run."""
+"""Every lab has a headline: one sentence, and one large number with its unit, measured in the current run."""
 
 import re
 

@@ -1,4 +1,6 @@
-"""Times in bins: the mean exact, quantiles to half a percent, and no more memory for a million than for one."""
+"""Histogram of times: the mean is exact, quantiles are within half a percent, and the memory does not grow with the
+count.
+"""
 
 import sys
 

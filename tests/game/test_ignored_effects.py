@@ -32,7 +32,7 @@ IGNORED = {
 
 
 class Heap(Pile):
-    """The pile, with all that blocking ignores but sleeping."""
+    """A pile with all effects that the blocking solver ignores, except sleeping."""
 
     effects = Effects(
         response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True, conveyor=True
@@ -40,7 +40,7 @@ class Heap(Pile):
 
 
 class Both(Heap):
-    """Two worlds under two solvers."""
+    """Scene with two worlds under two solvers."""
 
     solvers = ("blocking", "soft_step")
 
@@ -51,7 +51,7 @@ class Both(Heap):
 
 
 class Wordy(Heap):
-    """A scene that writes all over its picture: no place is free."""
+    """Scene whose picture is full of text, without free space."""
 
     def draw(self, canvas, alpha):
         super().draw(canvas, alpha)
@@ -69,7 +69,7 @@ def play_of(scene):
 
 
 def hud_of(play, size=(1440, 810)):
-    """Return all text on the picture of a Play, joined."""
+    """Return all text on the picture of a Play, joined by spaces."""
     return " ".join(text for _, text in play.draw(Picture(pygame.Surface(size))).boxes)
 
 

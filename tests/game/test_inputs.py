@@ -1,4 +1,4 @@
-"""InputState and its sources: events, scripts, pads; one door for all."""
+"""InputState and its sources (events, scripts, pads): all input goes through one interface."""
 
 from types import SimpleNamespace
 
@@ -79,7 +79,7 @@ def test_changes_travel_once():
 
 
 class FakePads:
-    """Stands in for game.input.devices.Pads: two pads, 7 mapped and 9 not."""
+    """Replacement of game.input.devices.Pads with two pads; pad 7 has a mapping and pad 9 has none."""
 
     def __init__(self):
         self.open = set()

@@ -1,4 +1,4 @@
-"""The invariants: each holds in worlds that are sound, and is broken by one that was tampered with in a step."""
+"""Invariants: each holds in unchanged worlds, and fails in a world that was changed within a step."""
 
 import math
 
@@ -58,7 +58,7 @@ def falling():
 
 
 def looking(*shapes):
-    """Return a world without response in which the shapes overlap."""
+    """Return a world without response in which the given shapes overlap."""
     world = World(Effects.detection())
     for k, shape in enumerate(shapes):
         world.add_body(shape, position=(5.0 * k, 3.0 * k), kind="kinematic")
@@ -161,7 +161,7 @@ def test_u3_a_push_from_nowhere(make):
 
 
 def test_u3_drift_is_added_up():
-    """A millionth of the allowance in each step, 600 times as often as it may be."""
+    """A drift of momentum too small for one step adds up over the steps and breaks U3."""
     world, watch, found = falling(), Watch(), []
     mass, speed = world.bodies["mass"][0], 300.0
     for _ in range(1200):
@@ -274,9 +274,10 @@ def test_pairs_of_every_kind_agree(shape):
 
 
 def test_u9_takes_two_worlds():
-    """Twelve boxes that fall onto the ground, added in two orders: the same but for the noise of sums, for 60 steps.
+    """U9 compares two worlds: twelve falling boxes added in two orders differ by the rounding of sums only, for 60
+    steps.
 
-    In columns they press on each other, and the order of solving is felt: see invariants/order.py.
+    In columns the order of solving has an effect, because the boxes press on each other: see invariants/order.py.
     """
     assert isinstance(watched(pile())["U9"], NotAsked)
     singly, _ = two_orders([(30.0 * k - 170.0, -9.0 - 2.0 * k) for k in range(12)])
@@ -288,7 +289,7 @@ def test_u9_takes_two_worlds():
 
 
 def two_orders(places, **options):
-    """Return (greatest difference after 60 steps, worlds) of two worlds with equal boxes, added in different orders."""
+    """Return (greatest difference after 60 steps, worlds) of two worlds with equal boxes added in different orders."""
     worlds, ids, count = [], [], len(places)
     for order in (range(count), [5 * k % count for k in range(count)]):
         world = World(**options)
@@ -310,7 +311,9 @@ def test_u11_a_cap_that_was_hit():
 
 
 def test_a_change_by_hand_is_no_break():
-    """Between two steps the game may do what it likes: the next step starts from there."""
+    """Changes by the game between two steps break no invariant: the checks of the next step start from the changed
+    state.
+    """
     world, watch = pile(), Watch()
     watched(world, 60, watch=watch)
     body = world.body(3)
@@ -384,7 +387,10 @@ def test_states_expire_and_keep_their_count():
 @pytest.mark.parametrize("links", [1, 2, 5])
 @pytest.mark.parametrize("solver", ["iterative", "direct"])
 def test_bodies_on_joints_break_nothing(held, links, solver):
-    """A joint passes on what holds its other side: a chain on the world keeps no momentum, one in flight keeps it."""
+    """Jointed bodies break no invariant.
+
+    A chain fixed to the world does not keep its momentum, because the joint transfers it; a flying one keeps it.
+    """
     world = World(Effects.rigid_bodies().with_(joints=True))
     world.gravity, world.joint_solver, before = (0.0, 300.0 if held else 0.0), solver, None
     for k in range(links):
@@ -415,7 +421,10 @@ def flail(speed, solver):
 @pytest.mark.parametrize("speed", [100.0, 300.0, 600.0, 1200.0])
 @pytest.mark.parametrize("solver", ["iterative", "direct"])
 def test_u4_joints_that_jerk_act_within_the_step(speed, solver):
-    """Their seeming gain is allowed for, and a turn of a percent from nowhere is still found."""
+    """U4 allows for the apparent energy gain of abruptly stopped joints within a step.
+
+    A change of the rotation by a percent without a cause is still found.
+    """
     watch = Watch()
     assert breaks(watched(flail(speed, solver), 300, watch=watch)) == {}
     world, watch = flail(speed, solver), Watch()

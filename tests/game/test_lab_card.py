@@ -1,4 +1,4 @@
-"""The card of a lab: open at the first visit, read at every size, true, and put away for good."""
+"""The card of a lab: open at the first visit, readable at every size, correct, and closed for good by the player."""
 
 import json
 
@@ -23,7 +23,7 @@ SIZES = [(480, 270), (960, 540), (1440, 810), (1920, 1080)]
 
 
 class Silent:
-    """No sound."""
+    """Replacement of the sounds that plays nothing."""
 
     def __getattr__(self, name):
         return lambda *a, **k: None

@@ -1,4 +1,4 @@
-"""The overlay "joints": anchors, axes, limits, forces and counts, at the places that geometry gives."""
+"""The overlay "joints" draws anchors, axes, limits, forces and counts at the positions that geometry gives."""
 
 from math import cos, inf, sin
 
@@ -38,7 +38,7 @@ WEIGHT = 9.8 * 32.0  # [px/s2] gravity of a default world
 
 
 class Workshop(Plain, Scene):
-    """An empty world, in which each test builds its joints."""
+    """An empty scene in which each test adds its joints."""
 
     name = title = "workshop"
     effects = JOINTED
@@ -68,7 +68,7 @@ def has(pixels, point, color, reach=1):
 
 
 def every_kind(scene):
-    """A joint of each kind between bodies that float."""
+    """Add a joint of each kind between floating bodies."""
     world = scene.world
     world.gravity = (0, 0)
     boxes = [world.add_body(Polygon.box(12, 12), position=(40 + 40 * k, 60 + 30 * (k % 4))) for k in range(11)]
@@ -199,7 +199,7 @@ def test_joints_outside_the_view_are_not_drawn(place):
 
 def test_a_world_without_the_effect_is_told_so():
     class Bare(Workshop):
-        """The same without joints."""
+        """The scene Workshop without the effect of joints."""
 
         effects = Effects.rigid_bodies()
 

@@ -1,4 +1,4 @@
-"""In no scene does text overlap text or leave the picture, whatever overlays and panel are on."""
+"""No text overlaps other text or leaves the picture in any scene, with any overlays and panels."""
 
 import pygame
 import pytest
@@ -23,7 +23,10 @@ LAYERS = {"none": lambda scene: (), "all": lambda scene: layer_names(), "its own
 
 @pytest.fixture(scope="module")
 def plays():
-    """name -> that scene after a second and a half of its bot; one at a time, made when a test first asks."""
+    """Return a function of a scene's name that returns its Play after a second and a half of the bot.
+
+    Only the last Play is cached; it is made when a test first requests it.
+    """
     kept = {}
 
     def play_of(name):
@@ -87,7 +90,10 @@ def test_the_largest_numbers_fit():
 
 @pytest.mark.parametrize("name", SCENES)
 def test_text_is_apart_and_readable_while_it_goes_on(plays, name):
-    """Under all overlays; paused, slow, and at several moments with its own and the panel, and readable without."""
+    """Text does not overlap while a scene is paused, slow or playing, with all overlays or its own and the panel.
+
+    Without overlays the text is readable, too.
+    """
     play = plays(name)
     assert_text_is_apart_with(play, SIZES[0], False, "all")
     own = Overlays(play.scene.overlays)

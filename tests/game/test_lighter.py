@@ -1,4 +1,4 @@
-"""Less to compute while the physics is not compiled: when it begins and ends, and that a recording holds it."""
+"""Reduced load while the physics is not compiled: when it begins and ends, and that a recording contains it."""
 
 import json
 
@@ -42,7 +42,7 @@ def lighter_of(name):
 
 
 def take(scene, devices):
-    """Apply the changes that the devices give to the next step. Return them, {name: value}."""
+    """Apply the setting changes that the devices give for the next step, and return them as {name: value}."""
     changes = devices.next().changes
     for change, value in changes:
         scene.change(change, value)

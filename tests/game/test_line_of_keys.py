@@ -1,4 +1,4 @@
-"""The line of keys at the start of a scene is placed where no text is: it hides none, at any size of the window."""
+"""The line of keys at the start of a scene covers no text at any size of the window."""
 
 import pygame
 import pytest
@@ -22,7 +22,9 @@ LAST = "Esc menu"
 
 @pytest.fixture(scope="module")
 def plays():
-    """Return a function of a scene's name and a step, which returns its screen at that step, played by the bot."""
+    """Return a function of a scene's name and a step number that returns the scene's Play at this step of the bot's
+    run.
+    """
     kept = {}
 
     def play_of(name, step):
@@ -38,7 +40,7 @@ def plays():
 
 
 def drawn(play, size, with_keys):
-    """Return the frame of a screen with the line of keys or, six seconds later, without it."""
+    """Return the frame of a Play with the line of keys or, six seconds later, without it."""
     play.helped_since = 0 if with_keys else -HELP_SECONDS * 60
     return play.draw(Picture(pygame.Surface(size)))
 

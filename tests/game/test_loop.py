@@ -1,4 +1,4 @@
-"""The accumulator: whole steps, nothing lost, nothing run away."""
+"""FixedStep, the accumulator of time: it gives whole steps, loses no time and limits the steps of a frame."""
 
 import gc
 import weakref
@@ -70,7 +70,7 @@ def test_a_rest_does_not_count():
 @pytest.mark.parametrize("slow", [0.03, 0.1, 0.3, 1.0])
 @pytest.mark.parametrize("pictures", [1, 2, 5])
 def test_where_the_first_steps_are_slow_there_is_one_a_picture(slow, pictures):
-    """However quick the pictures before the first step were."""
+    """While the first steps are slow, each picture gets one step, however fast the pictures before them were."""
     clock, now = FixedStep(), 0.0
     clock.advance(now)
     for _ in range(pictures):

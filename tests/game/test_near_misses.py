@@ -1,4 +1,4 @@
-"""The split screen that opens "What accuracy costs": boxes kill, pixels never; and the way to it from every menu."""
+"""The split screen that opens "What accuracy costs" (boxes hit, pixels never do), and how every menu leads to it."""
 
 import re
 from itertools import combinations
@@ -38,7 +38,10 @@ def test_boxes_kill_at_nearly_every_pass_and_pixels_never(dt):
 
 @pytest.mark.parametrize("dt", DTS)
 def test_the_sprites_as_drawn_never_come_closer_than_a_stranger_can_see(dt):
-    """Another look than the one that placed them: distance of the nearest pixels at every step of a loop."""
+    """The visible pixels of the sprites keep a visible distance at every step of the loop.
+
+    The test computes the distance of the nearest pixels itself, independently of the code that placed the sprites.
+    """
     shown, planes = NearMisses(dt), load_atlas("planes")
     flight = shown.flights[1]
     solid = {name: pygame.mask.from_surface(planes[name]).outline() for name in {m.sprite for m in shown.misses}}
@@ -111,7 +114,11 @@ def press(driver, *keys):
 
 
 def test_three_keys_lead_a_stranger_from_the_title_to_the_false_hits_of_boxes(driver):
-    """Down, Enter: the split screen. Enter: the plot in the shooter, which opens with the sentence."""
+    """Three keys lead from the title to the plot of false hits of boxes: Down and Enter to the split screen, Enter to
+    the plot.
+
+    The plot opens in the shooter with its sentence.
+    """
     press(driver, pygame.K_DOWN, pygame.K_RETURN)
     assert driver.name == "NearMisses"
     press(driver, pygame.K_RETURN)

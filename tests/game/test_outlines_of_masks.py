@@ -1,4 +1,4 @@
-"""The outlines of masks as overlays draw them: on the pixels' edges, with the seams between parts told apart."""
+"""Outlines of masks as overlays draw them: on the pixel edges, with the seams between parts in another style."""
 
 from math import cos, pi, sin
 
@@ -30,14 +30,14 @@ NEAR = 0.71 + 0.01  # [px] greatest distance of an edge from the pixels': smooth
 
 
 def turned(points, pose):
-    """Return world points in body space."""
+    """Return world points converted to the body space of a pose."""
     x, y, angle = pose
     dx, dy = points[:, 0] - x, points[:, 1] - y
     return np.column_stack((cos(angle) * dx + sin(angle) * dy, cos(angle) * dy - sin(angle) * dx))
 
 
 def is_solid(mask, points):
-    """Return whether each point in body space lies in a solid pixel, looked up in the mask's pixels alone."""
+    """Return whether each point in body space lies in a solid pixel, from the mask's pixels only."""
     column = np.floor(points[:, 0] + mask.origin[0]).astype(int)
     row = np.floor(points[:, 1] + mask.origin[1]).astype(int)
     width, height = mask.size
@@ -46,7 +46,9 @@ def is_solid(mask, points):
 
 
 def around(mask, points, reach):
-    """Return (any solid, all solid) of the pixels at each point and at the distance `reach` in sixteen directions."""
+    """Return (any solid, all solid) of the pixels at each point and at distance `reach` from it
+    in sixteen directions.
+    """
     looks = [is_solid(mask, points)]
     for k in range(16):
         looks.append(is_solid(mask, points + reach * np.array((cos(k * pi / 8), sin(k * pi / 8)))))
@@ -95,7 +97,10 @@ def test_worlds_without_response_have_no_outlines():
 
 
 def test_masks_are_shown_where_they_are_where_bodies_are_pushed():
-    """With response no mask is drawn at its angle before it is needed: all were at (0, 0), and met there."""
+    """With response, a mask is drawn and hit at its pose although its rotated pixels are computed only when needed.
+
+    Without them all masks were drawn at (0, 0).
+    """
     world = World(Effects.rigid_bodies(), gravity=(0.0, 0.0))
     mask = PixelMask.from_array(np.ones((8, 30), bool))
     for x in (40.0, 66.0):
@@ -114,7 +119,7 @@ def test_masks_are_shown_where_they_are_where_bodies_are_pushed():
 
 
 class Sprites(Plain, Scene):
-    """A bracket, a disc and a large ground, without gravity; the bracket flies and turns."""
+    """A bracket, a disc and a large ground mask without gravity; the bracket flies and rotates."""
 
     name = title = "sprites"
     effects = Effects(response=True, rotation=True, stacking=True)
@@ -142,7 +147,9 @@ def stepped(steps):
 @pytest.mark.parametrize("scale", [2, 3])
 @pytest.mark.parametrize("layer", ["masks", "outlines"])
 def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
-    """Also between steps: sprites stand still for that moment, and so do the lines."""
+    """Outlines are drawn at the pose of the last step at any scale, also between steps, when sprites are drawn there
+    too.
+    """
     scene = stepped(12)
     before = scene_digest(scene)
     overlays = Overlays([layer])

@@ -1,4 +1,4 @@
-"""The layers that show what a solver does, and the outlines of every kind of shape."""
+"""Overlays that show the work of a solver, and the outlines of every kind of shape."""
 
 from itertools import pairwise
 from math import cos, hypot, sin
@@ -24,7 +24,7 @@ SOLVED = ("contacts", "impulses", "features", "islands", "colors", "centers", "g
 
 
 class Pile(Plain, Scene):
-    """Every kind of shape on a chain, a grid and a segment; a bullet flies at a thin wall."""
+    """Scene with every kind of shape on a chain, a grid and a segment, and a bullet that flies at a thin wall."""
 
     name = title = "pile"
     effects = Effects.rigid_bodies().with_(one_way=True)
@@ -204,7 +204,7 @@ def test_the_difference_of_two_boxes_is_a_box():
 
 
 def test_contacts_persist_in_worlds_that_remember_none():
-    """Without stacking a contact is new in the step it begins, and persists after it."""
+    """In a world without stacking a contact is drawn as new in its first step and as persisting later."""
     world = World(Effects())
     for x in (0.0, 9.0):
         world.add_body(Circle(5.0), position=(x, 0.0))

@@ -1,4 +1,4 @@
-"""Overlays only read, stay in their view, and say what they left out."""
+"""Overlays change nothing in a scene, stay in their view, and report what they leave out."""
 
 import numpy as np
 import pygame
@@ -22,7 +22,7 @@ STAR = np.array([[abs(x) + abs(y) < 9 or x == y for x in range(-12, 13)] for y i
 
 
 class Crowd(Plain, Scene):
-    """One of each kind of shape, some of them in each other."""
+    """Scene with one of each kind of shape, some of them overlapping."""
 
     name = title = "crowd"
     effects = Effects.detection()

@@ -1,4 +1,4 @@
-"""Palettes: overlays stay apart for colour-blind eyes, by simulation, and stand out where that is asked for."""
+"""Palettes: overlay colours differ for colour-blind viewers, by simulation, and have enough contrast where required."""
 
 from itertools import combinations
 

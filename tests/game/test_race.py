@@ -1,4 +1,4 @@
-"""The race: two scenes from one seed by one input, apart by what their settings do and by nothing else."""
+"""The race: two scenes with the same seed and input differ only by the effect of their settings."""
 
 import numpy as np
 import pygame
@@ -26,7 +26,7 @@ OTHER = {"hash": "tree", "tree": "hash", "sweep": "hash", "brute": "tree"}
 
 
 class Silent:
-    """No sound."""
+    """Replacement of the sounds that plays nothing."""
 
     def __getattr__(self, name):
         return lambda *a, **k: None
@@ -34,7 +34,10 @@ class Silent:
 
 @pytest.fixture
 def played():
-    """played(name, source=bot): a screen on which a scene is played; closed at the end."""
+    """Yield a function played(name, source=None) that returns a Play of a scene; all are closed at the end.
+
+    source: source of input besides the devices, such as the bot.
+    """
     screens = []
 
     def make(name, source=None):
@@ -51,7 +54,7 @@ def played():
 
 
 class Mixed:
-    """Source with a bot's keys, and with the changes of settings that the devices give."""
+    """Source that combines the keys of another source, such as a bot, with setting changes from the devices."""
 
     def __init__(self, source, devices):
         self.source, self.devices = source, devices
@@ -108,7 +111,10 @@ def test_fewer_substeps_are_apart_and_that_is_reported_and_drawn(played):
 
 @needs_speed
 def test_one_number_for_two_things_is_not_one_body(played):
-    """Shots that hit a circle are gone, where they fly on past pixels: from then on the two number differently."""
+    """Bodies with equal ids in both scenes are compared only if they are the same body.
+
+    Shots that hit a circle are removed, while they fly past pixels in the other scene; later ids therefore differ.
+    """
     play = played("shooter", BotSource())
     race = race_of(play, tier="circle")
     for _ in range(1200):

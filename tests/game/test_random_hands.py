@@ -1,5 +1,6 @@
-"""Random input in every scene: keys, buttons, clicks, drags, the wheel or a window that loses its focus, in any order,
-must neither end the program nor leave a number that is not finite.
+"""Random input in every scene neither ends the program nor leaves a number that is not finite.
+
+The input: keys, buttons, clicks, drags, the wheel and a window that loses its focus, in any order.
 """
 
 import threading
@@ -27,19 +28,19 @@ KINDS = {"tap": 42, "hold": 10, "click": 20, "drag": 6, "wheel": 6, "pad": 8, "l
 
 
 class Hands:
-    """Random deeds on a running program."""
+    """Makes random inputs on a running program."""
 
     def __init__(self, driver, seed):
         self.driver, self.random = driver, np.random.default_rng(seed)
         self.held, self.deeds = set(), []
 
     def place(self):
-        """A place in the window, now and then outside of the picture."""
+        """Return a random position in the window, sometimes outside the picture."""
         width, height = pygame.display.get_window_size()
         return int(self.random.integers(-5, width + 5)), int(self.random.integers(-5, height + 5))
 
     def deed(self):
-        """Do one random thing that a player can do."""
+        """Make one random input that a player can make."""
         kind = str(self.random.choice(list(KINDS), p=np.array([*KINDS.values()]) / 100))
         self.deeds.append(kind)
         getattr(self, kind)()
@@ -96,14 +97,14 @@ class Hands:
 
 
 def watched(monkeypatch):
-    """Return the list of errors that end threads."""
+    """Return a list to which every exception that ends a thread is appended."""
     ended = []
     monkeypatch.setattr(threading, "excepthook", lambda reported: ended.append(reported.exc_value))
     return ended
 
 
 def try_out(driver, scene, seed, deeds):
-    """Do `deeds` random things in a scene. The scene is started again if it was left."""
+    """Make `deeds` random inputs in a scene; the scene is started again if it was left."""
     hands = Hands(driver, seed)
     driver.app.screens.play(scene)
     driver.turns(5)

@@ -1,4 +1,4 @@
-"""High scores and ghosts: in order, ten at most, and whatever is in the file."""
+"""High scores and ghosts: sorted, ten at most, and robust against any content of the file."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Recordings come back bit for bit, name the frame that differs, and name their damage."""
+"""Recordings replay to the bit, name the first frame that differs, and report damage."""
 
 import json
 

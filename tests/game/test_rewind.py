@@ -1,4 +1,4 @@
-"""Rewind: any step of the last ten seconds comes back to the bit, play goes on from there, and it takes few bytes."""
+"""Rewind: any step of the last ten seconds is restored to the bit, play continues from it, and it needs few bytes."""
 
 from itertools import count
 from time import process_time
@@ -35,7 +35,7 @@ MEASURED = ("shooter", "platformer", "lander", "lab/pyramid", "lab/conveyor", "l
 
 
 class Noted:
-    """A session with its rewind; `digests` and `inputs` of every step made live."""
+    """A session with its rewind; `digests` and `inputs` list those of every step that was played."""
 
     def __init__(self, scene, source=None, recorder=None):
         self.session = Session(scene, source or BotSource(), recorder)
@@ -47,7 +47,7 @@ class Noted:
         return scene_digest(self.session.scene)
 
     def play(self, steps, source=None):
-        """Play `steps` steps from the current state, and record them. Later recorded steps are dropped first."""
+        """Play `steps` steps from the current state and record them; later recorded steps are dropped first."""
         self.session.source = source or self.session.source
         self.rewind.drop_future()
         del self.digests[self.rewind.position + 1 :], self.inputs[self.rewind.position :]
@@ -98,7 +98,7 @@ def test_ten_seconds_back_and_on_again_in_every_scene(name):
 
 @pytest.fixture
 def even_clock(monkeypatch):
-    """Make all key frames take the same time, because one that takes long on a busy machine would be put off."""
+    """Make all key frames take the same measured time, because a slow one on a busy machine would be postponed."""
     ticks = count()
     monkeypatch.setattr("game.run.rewind.perf_counter", lambda: 1e-6 * next(ticks))
 
@@ -243,7 +243,7 @@ def test_columns_that_stay_are_shared():
 
 
 class Silent(Sounds):
-    """Counts the steps that were heard."""
+    """Replacement of the sounds that counts the steps."""
 
     def __init__(self):
         super().__init__(silent=True)
@@ -258,7 +258,7 @@ class Silent(Sounds):
 
 @pytest.fixture
 def play():
-    """Return a game that was played for 150 steps. `play.digests`: its digests by step."""
+    """Return a Play after 150 steps. `play.digests`: its digests, by step."""
     play = Play(Arena(seed=3), DeviceSource(), Silent(), settings=Settings(hint_seen=True, window_scale=1))
     play.digests = [scene_digest(play.scene)]
     play.advance(0.0)

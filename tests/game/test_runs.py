@@ -1,4 +1,4 @@
-"""A person's runs: one recording for each attempt, notes of help, ranked results, ghosts, reports of damaged files."""
+"""Runs of a person: one recording for each attempt, notes of help, ranked results, ghosts, reports of damaged files."""
 
 import json
 

@@ -1,4 +1,6 @@
-"""On no screen of the shell does text lie on text, leave the picture or sink into its ground."""
+"""On every screen of the shell, text does not overlap other text, stays in the picture and contrasts with its
+background.
+"""
 
 import json
 from types import SimpleNamespace
@@ -62,7 +64,7 @@ def settled(screen, steps=70):
 
 
 def check(screen):
-    """Draw a screen of the canvas and measure its text."""
+    """Draw a screen that uses the canvas, and check its text."""
     with Reader() as reader:
         picture = Picture()
         frame = picture.draw_screen(screen)
@@ -72,7 +74,7 @@ def check(screen):
 
 
 def check_at_sizes(screen, sizes=SIZES):
-    """Draw a screen at window resolution and measure its text, at each of the sizes."""
+    """Draw a screen at window resolution, and check its text at each of the sizes."""
     for size in sizes:
         with Reader() as reader:
             frame = screen.draw(Picture(pygame.Surface(size)))
@@ -308,7 +310,7 @@ def test_first_hint_and_lines_over_a_game():
 
 
 def test_a_text_that_sinks_into_its_ground_is_found():
-    """The measure itself: grey on grey fails, and so does text that something covers."""
+    """The check itself finds grey text on grey, and text that is covered."""
 
     def grey(canvas, alpha):
         canvas.surface.fill((90, 90, 90))

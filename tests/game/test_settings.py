@@ -1,4 +1,4 @@
-"""Settings survive damage and other versions: defaults, one line, and the old file kept beside."""
+"""Damaged settings, or those of other versions, give the defaults and a one-line message; the old file is kept."""
 
 import json
 from random import Random

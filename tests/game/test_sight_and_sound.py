@@ -1,4 +1,4 @@
-"""Sprites from exactly the mask's pixels, particles that never matter."""
+"""Sprites are drawn from exactly the mask's pixels, and particles never affect a game."""
 
 import numpy as np
 import pygame

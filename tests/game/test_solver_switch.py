@@ -1,4 +1,4 @@
-"""The solver can be switched while a scene is played: by key, by panel, in a recording."""
+"""The solver can be switched while a scene is played, by key and panel, and a recording contains the switch."""
 
 import pygame
 import pytest
@@ -13,7 +13,7 @@ from tests.game.arena import Arena
 
 
 class Pile(Arena):
-    """The arena with two crates on a floor."""
+    """The scene Arena with two crates on a floor."""
 
     effects = Effects(response=True, gravity=True, stacking=True)
 

@@ -1,4 +1,4 @@
-"""Effects: every file plays, few voices at once, what matters is never lost, and no file can crash a game."""
+"""Sound effects: every file plays, few voices play at once, important sounds are kept, and no file can crash a game."""
 
 import ast
 import wave
@@ -13,7 +13,7 @@ from game.places import ASSETS, SOUNDS
 
 
 class Clock:
-    """Seconds that a test moves on."""
+    """Clock whose seconds a test advances."""
 
     def __init__(self):
         self.now = 0.0
@@ -23,7 +23,7 @@ class Clock:
 
 
 class Heard(Sounds):
-    """Sounds on a clock of its own, which keeps what is reported."""
+    """Sounds with a clock of their own; the reported lines are stored."""
 
     def __init__(self, **more):
         self.time, self.said = Clock(), []
@@ -85,7 +85,7 @@ def test_hurt_is_never_lost_to_shots(sounds):
 
 
 class FakeChannel:
-    """Notes the volumes that it is given."""
+    """Replacement of a mixer channel that records the volumes it is given."""
 
     def get_busy(self):
         return False

@@ -1,4 +1,6 @@
-"""Music: a tune fades into the next, a jingle comes between, a loud effect pushes it back, no file crashes a game."""
+"""Music: a tune fades into the next, a jingle plays between, a loud effect lowers the volume,
+no file crashes a game.
+"""
 
 import re
 
@@ -25,7 +27,7 @@ def sounds():
 
 
 def run(sounds, seconds):
-    """Step and return the volumes on the way."""
+    """Step the sounds for a time [s] and return the list of music volumes after each frame."""
     volumes = []
     for _ in range(round(seconds / FRAME)):
         sounds.step(FRAME)
@@ -146,7 +148,10 @@ def test_a_pause_silences_the_tune_and_another_tune_ends_it(sounds):
 
 
 def test_a_pause_never_waits_for_the_sound_thread(sounds, monkeypatch):
-    """pygame's own pause froze the program when an effect ended at that moment (see Music.pause)."""
+    """Pausing the music never waits for the sound thread.
+
+    pygame's own pause froze the program if an effect ended at that moment (see Music.pause).
+    """
     for name in ("pause", "unpause"):
         monkeypatch.setattr(pygame.mixer.music, name, None)
     sounds.tune("shooter")

@@ -1,4 +1,4 @@
-"""The lines that must be printed before anything heavy is imported."""
+"""Lines that must be printed before slow modules are imported."""
 
 import ast
 from pathlib import Path

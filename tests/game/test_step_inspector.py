@@ -1,4 +1,4 @@
-"""Step inspector: stage by stage, forwards and back to the bit; play continues as if it had not been inspected."""
+"""Step inspector: stages forwards and backwards to the bit; play continues as if there had been no inspection."""
 
 import re
 
@@ -42,7 +42,7 @@ def inspector(session, world=None):
 
 
 def tables_of(world):
-    """Return the tables of a stop as bytes, column by column, without the gaps between columns."""
+    """Return the tables of a pause between stages as bytes, column by column, without the padding between columns."""
     shown = [*photographed(world).values(), world.contacts, debug.contact_points(world), debug.bounds(world)]
     parts = [each[name] for each in shown for name in each.dtype.names or [...]]
     return [part.tobytes() for part in parts] + [world.digest()]
@@ -123,7 +123,7 @@ def test_what_a_stage_is_said_to_change_is_what_it_changes():
 
 
 class Twice(Arena):
-    """Two steps a frame, and none in every fourth."""
+    """Scene that makes two steps a frame, and none in every fourth frame."""
 
     name = "twice"
 

@@ -1,4 +1,4 @@
-"""Tiled levels: the contents that are read, and the message for each kind of damage."""
+"""Tiled levels: the supported contents, and the message for each kind of damage."""
 
 import base64
 import copy

@@ -14,7 +14,7 @@ SOLID, THINGS = LEVEL["layers"][0], LEVEL["layers"][1]
 
 
 def loaded(tmp_path, **changes):
-    """Load the level with other values of the map."""
+    """Load LEVEL with some values of the map replaced."""
     path = tmp_path / "level.tmj"
     path.write_text(json.dumps({**copy.deepcopy(LEVEL), **changes}))
     return load_tilemap(path)

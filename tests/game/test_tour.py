@@ -1,4 +1,4 @@
-"""The tour stops on steps where its subject is there, rings it, and docks its card elsewhere."""
+"""The tour stops at steps that show its subject, puts a ring around it, and places its card elsewhere."""
 
 import pygame
 import pytest
@@ -32,7 +32,7 @@ IS_THERE = {
 
 
 class Clock:
-    """Turns of a sixtieth of a second."""
+    """Clock that makes turns of the tour, each 1/60 s."""
 
     def __init__(self, tour):
         self.tour, self.now = tour, 0.0
@@ -55,7 +55,10 @@ def look(tour, size):
 
 @pytest.mark.skipif(not physics.JIT, reason="800 steps of the shooter")
 def test_every_stop_is_on_a_step_where_its_subject_is_there_ringed_and_not_under_the_card():
-    """One walk through all: five scenes are played to where it gets interesting, and that takes its time."""
+    """Every stop of the tour shows its subject with a ring, not covered by the card.
+
+    One run visits all stops, because five scenes are played up to their stop, which takes time.
+    """
     tour = make()
     clock = Clock(tour)
     for at, (_, layer, _, _) in enumerate(STOPS):
@@ -122,7 +125,7 @@ def test_wherever_a_ring_is_there_is_a_place_for_the_card(size):
 
 
 class Blank:
-    """A scene with an empty canvas."""
+    """Scene with an empty canvas."""
 
     def draw(self, canvas, alpha):
         """Draw nothing."""

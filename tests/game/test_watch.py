@@ -1,4 +1,4 @@
-"""Watching replays: seeking comes out where straight play does, a difference is shown, overlays only look."""
+"""Watching replays: seeking gives the state of normal play, a difference is shown, and overlays change nothing."""
 
 import json
 

@@ -1,7 +1,8 @@
-"""One-operator changes of a kernel, over its syntax tree: what a slip of the hand would make of it.
+"""Changes of one operator in a kernel's syntax tree, which simulate typing errors.
 
-A change is found by the kernel's name, a kind and a seed: the seed picks one of the places where that kind is possible,
-in the order of the source. So it survives a kernel that moves to another file or gets other names.
+A change is identified by the kernel's name, a kind and a seed. The seed picks one of the positions at which this kind
+is possible, in the order of the source. A change is therefore still found after its kernel moves or its variables are
+renamed.
 """
 
 import ast
@@ -19,7 +20,7 @@ FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
 
 
 def is_number(node):
-    """Return True for a number written out, not for True and False."""
+    """Return whether a node is a numeric literal; True and False do not count."""
     return isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
 
 
@@ -61,7 +62,7 @@ KINDS = {  # name -> (whether a node can be changed so, the change in place)
 
 @dataclass(frozen=True)
 class Change:
-    """A kernel's file with one operator changed. before, after: the line it is in."""
+    """Source of a kernel's file with one operator changed. before, after: the changed line."""
 
     path: Path  # within the folder that was searched
     line: int
@@ -72,7 +73,7 @@ class Change:
 
 @cache
 def sources_in(folder):
-    """Return the pairs (path, source) of all modules in a folder. A caller that changes one restores it."""
+    """Return a list of (path, source) of all modules in a folder."""
     return [(path, path.read_text()) for path in sorted(folder.rglob("*.py"))]
 
 
@@ -94,7 +95,7 @@ def find_kernel(folder, name):
 
 
 def is_kernel(node, name):
-    """Return True for the definition of a kernel of any kind of that name."""
+    """Return whether a node is the definition of a kernel, of any kind, with this name."""
     marks = [each.id for each in getattr(node, "decorator_list", ()) if isinstance(each, ast.Name)]
     return isinstance(node, ast.FunctionDef) and node.name == name and bool(set(DECORATORS) & set(marks))
 
@@ -102,7 +103,7 @@ def is_kernel(node, name):
 def places(function, kind):
     """Return the nodes of a kernel at which a change of this kind is possible, in the order of the source.
 
-    Defaults of arguments and the docstring are left out.
+    Argument defaults and the docstring are left out.
     """
     possible, _ = KINDS[kind]
     found = [node for statement in function.body for node in ast.walk(statement) if possible(node)]
@@ -110,7 +111,7 @@ def places(function, kind):
 
 
 def change(folder, name, kind, seed):
-    """The Change of that kind which the seed picks in a kernel. Raises LookupError where none is possible."""
+    """Return the Change of a kind that the seed picks in a kernel. Raises LookupError if none is possible."""
     path, source, function = find_kernel(folder, name)
     nodes = places(function, kind)
     if not nodes:

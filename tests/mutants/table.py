@@ -1,6 +1,7 @@
-"""Thirty-six slips of the hand in the kernels, and the tests that catch each.
+"""Thirty-six single-operator errors in the kernels, and the tests that detect each.
 
-The seed is 1 unless another is said: the change that 1 picks may come to the same (EQUIVALENT).
+The seed is 1 unless another one is given, because the change that 1 picks may be equivalent to the original
+(EQUIVALENT).
 """
 
 from dataclasses import dataclass
@@ -8,7 +9,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mutant:
-    """One operator of a kernel changed: see operators.change. tests: names of those that must fail."""
+    """One changed operator of a kernel: see operators.change. tests: names of the tests that must fail."""
 
     kernel: str
     kind: str
@@ -17,7 +18,7 @@ class Mutant:
 
     @property
     def key(self):
-        """Arguments of operators.change."""
+        """Return the arguments (kernel, kind, seed) of operators.change."""
         return self.kernel, self.kind, self.seed
 
     def __str__(self):

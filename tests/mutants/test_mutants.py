@@ -1,4 +1,4 @@
-"""Each mutant of the table is caught by the tests that are named for it, which pass without it."""
+"""The tests named in the table detect each mutant, and pass without it."""
 
 import pytest
 
@@ -12,7 +12,7 @@ PASSED, FAILED = 0, 1  # exit codes of pytest; others say that nothing was teste
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    """A copy of the sources in which one file at a time is changed."""
+    """Return a folder with a copy of the sources, in which one file at a time is changed."""
     return copy_sources(tmp_path_factory.mktemp("mutants"))
 
 

@@ -1,4 +1,4 @@
-"""A scratch copy of the sources in which one kernel is changed, and the tests that are run there, uncompiled."""
+"""A copy of the sources in which one kernel is changed, and the tests that run there, uncompiled."""
 
 import os
 import re
@@ -15,7 +15,7 @@ SECONDS = 300  # for tests that take less than 30 on an idle machine
 
 
 def copy_sources(folder):
-    """A copy of what the physics' tests need."""
+    """Copy the files that the physics tests need into a folder, and return the folder."""
     for name in COPIED:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", folder)
@@ -23,7 +23,7 @@ def copy_sources(folder):
 
 
 def ids_of(names):
-    """The pytest ids of test functions, wherever they stand. Raises LookupError for a name that is not there."""
+    """Return the pytest ids of test functions, found in all test files. Raises LookupError for an unknown name."""
     found = []
     for name in names:
         definition = re.compile(rf"^def {name}\(", re.M)
@@ -36,7 +36,7 @@ def ids_of(names):
 
 
 def run_tests(folder, names):
-    """Return (exit code of pytest, its output) for the named tests in a copy, slow ones too.
+    """Return (exit code of pytest, its output) for the named tests in a copy; slow tests are included.
 
     Raises subprocess.TimeoutExpired.
     """

@@ -1,1 +1,1 @@
-"""Slow twins of the fast code, obviously right, importing nothing from physics."""
+"""Slow reference implementations of fast code, simple enough to be obviously correct."""

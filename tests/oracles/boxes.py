@@ -1,8 +1,8 @@
-"""All pairs of closed boxes, by the double loop."""
+"""All touching pairs of closed boxes, by a double loop."""
 
 
 def touching_pairs(lower, upper):
-    """Return [(a, b), ...] a < b, sorted, of boxes given by their corners; equal borders touch."""
+    """Return [(a, b), ...] with a < b, sorted, of the boxes that touch. lower, upper: corners; equal borders touch."""
     found = []
     for a in range(len(lower)):
         for b in range(a + 1, len(lower)):

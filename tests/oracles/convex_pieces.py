@@ -1,4 +1,4 @@
-"""Counts of convex pieces found otherwise: by trying all cuts, and by Hertel and Mehlhorn over a triangulation."""
+"""Numbers of convex pieces by other methods: a search of all cuts, and Hertel and Mehlhorn on a triangulation."""
 
 from functools import cache
 
@@ -11,7 +11,9 @@ def turn(a, b, c):
 
 
 def fewest(corners):
-    """Return the least number of convex pieces that cuts between corners reach, by trying all; at most ten corners."""
+    """Return the least number of convex pieces that cuts between corners give, by a search of
+    all; at most ten corners.
+    """
     corners = [tuple(each) for each in corners.tolist()]
     if not Polygon(corners).exterior.is_ccw:
         corners.reverse()
@@ -38,7 +40,10 @@ def fewest(corners):
 
 
 def hertel_mehlhorn(outer, holes=()):
-    """Return the number of convex pieces after the removal of needless cuts of a constrained Delaunay triangulation."""
+    """Return the number of convex pieces after needless cuts of a constrained Delaunay triangulation are removed.
+
+    This is the method of Hertel and Mehlhorn.
+    """
     triangles = shapely.constrained_delaunay_triangles(Polygon(outer, holes)).geoms
     pieces = [list(shapely.normalize(each).exterior.coords)[:-1] for each in triangles]
     pieces = [each if Polygon(each).exterior.is_ccw else each[::-1] for each in pieces]
@@ -58,7 +63,7 @@ def hertel_mehlhorn(outer, holes=()):
 
 
 def tangle(rng, count):
-    """A random simple polygon: random points, crossings undone until none is left."""
+    """Return the corners of a random simple polygon: random points, reordered until no edges cross."""
     points = rng.random((count, 2))
     order, again = list(range(count)), True
     while again:

@@ -1,4 +1,4 @@
-"""Ground as the closed area that it encloses, which no body's centre may enter."""
+"""Ground shapes and the closed area that each encloses, which no body's centre may enter."""
 
 import itertools
 
@@ -22,7 +22,7 @@ def grid_of(cells, size):
 
 
 def pieces_of(cells, size):
-    """The solid of each cell as a list of corners, clockwise on the screen."""
+    """Return the solid part of each cell as a list of corners, clockwise on the screen."""
     found = []
     for row, column in itertools.product(*map(range, np.shape(cells))):
         kind = cells[row][column]
@@ -35,7 +35,7 @@ def pieces_of(cells, size):
 
 
 def area_of(pieces, pose=(0.0, 0.0, 0.0)):
-    """The union of polygons, at a pose, as a shapely area."""
+    """Return the union of polygons at a pose as a shapely geometry."""
     union = shapely.union_all([shapely.Polygon(each) for each in pieces])
     turned = affinity.rotate(union, pose[2], origin=(0.0, 0.0), use_radians=True)
     return affinity.translate(turned, pose[0], pose[1])
@@ -56,10 +56,10 @@ def loop_of(rng, links, size, concave):
 
 
 def island(points):
-    """A closed chain around a solid."""
+    """Return a closed chain around a solid island."""
     return Chain([tuple(each) for each in points], loop=True)
 
 
 def room(points):
-    """Return the same loop as a chain with the solid outside: a room."""
+    """Return a closed chain of the same loop with the solid outside: a room."""
     return Chain([tuple(each) for each in points[::-1]], loop=True)

@@ -1,4 +1,4 @@
-"""On which side of touching two convex outlines are, computed without rounding."""
+"""Exact tests, without rounding, of whether two convex outlines are separate, touch or overlap."""
 
 from fractions import Fraction
 
@@ -6,7 +6,9 @@ import numpy as np
 
 
 def sign_of_gap(a, b):
-    """Return 1 if two outlines are apart, 0 if they touch, -1 if they overlap, computed in exact rational numbers."""
+    """Return 1 if two outlines are separate, 0 if they touch, -1 if they overlap, computed in
+    exact rational numbers.
+    """
     a, b = ([(Fraction(x), Fraction(y)) for x, y in corners] for corners in (a, b))
     widest = None
     for one, other in ((a, b), (b, a)):
@@ -21,10 +23,10 @@ def sign_of_gap(a, b):
 
 
 def gaps_on_a_lattice(a, b):
-    """Return the (n,) gaps of pairs of outlines: for each pair the widest gap over the normals of all faces.
+    """Return (n,) gaps of pairs of outlines: for each pair the widest gap over the normals of all faces.
 
-    a, b: (n, m, 2) int64 corners, clockwise on the screen. Every number is whole and below 2^62, so that the sign is
-    exact; the length is a float, in units of the lattice.
+    a, b: (n, m, 2) int64 corners, clockwise on the screen. Every intermediate number is an integer below 2^62, so the
+    sign is exact; the gap is a float in units of the lattice.
     """
     widest = np.full(len(a), -np.inf)
     for one, other in ((a, b), (b, a)):

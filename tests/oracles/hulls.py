@@ -1,4 +1,6 @@
-"""Bounds on the distance of two convex outlines that need no distance algorithm: projections and point to edge."""
+"""Bounds on the distance of two convex outlines without a distance algorithm: projections, and corner-to-edge
+distances.
+"""
 
 import math
 
@@ -6,7 +8,9 @@ import numpy as np
 
 
 def random_outline(rng, corners, aspect, size=1.0):
-    """Corners of a convex polygon on an ellipse, turned and in clockwise order on the screen."""
+    """Return the corners of a random convex polygon on a rotated ellipse, clockwise on the screen. aspect: ratio of the
+    axes.
+    """
     angles = np.sort(rng.uniform(0.0, 2.0 * math.pi, corners))
     points = np.stack([np.cos(angles), np.sin(angles) * aspect], axis=1) * size
     turn = rng.uniform(0.0, 2.0 * math.pi)
@@ -15,13 +19,17 @@ def random_outline(rng, corners, aspect, size=1.0):
 
 
 def projected_gap(a, b, normal):
-    """Gap between the shadows of two outlines on a direction from A to B: never more than their distance."""
+    """Return the gap between the projections of two outlines on a direction from A to B; it never exceeds their
+    distance.
+    """
     return float((b @ normal).min() - (a @ normal).max())
 
 
 def best_face_gap(a, b):
-    """The greatest gap over the normals of all faces: the distance's lower bound,
-    and exactly the depth of an overlap."""
+    """Return the greatest gap over the normals of all faces.
+
+    It is a lower bound of the distance, and exactly minus the depth if the outlines overlap.
+    """
     best = -math.inf
     for first, second in ((a, b), (b, a)):
         edges = np.roll(first, -1, axis=0) - first
@@ -32,8 +40,10 @@ def best_face_gap(a, b):
 
 
 def corner_to_edge(a, b):
-    """The least distance of a corner of one outline from an edge of the other:
-    the distance of outlines that are apart."""
+    """Return the least distance of a corner of one outline from an edge of the other.
+
+    It is the distance of outlines that are separate.
+    """
     best = math.inf
     for first, second in ((a, b), (b, a)):
         edges = np.roll(first, -1, axis=0) - first
@@ -44,5 +54,5 @@ def corner_to_edge(a, b):
 
 
 def shadow_overlap(a, b):
-    """The least move along an axis that parts two AABBs: no overlap of the outlines is deeper."""
+    """Return the least move along x or y that separates two AABBs; no overlap of the outlines is deeper."""
     return float(np.minimum(a.max(axis=0) - b.min(axis=0), b.max(axis=0) - a.min(axis=0)).min())

@@ -1,4 +1,4 @@
-"""Which contacts lose their cached forces when bodies go: a search over all contacts of a world."""
+"""Reference for the contacts whose cached forces are cleared when bodies are removed: a search over all contacts."""
 
 import math
 
@@ -11,7 +11,9 @@ FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_
 
 
 def forget_loads(world, ids):
-    """Clear the forces below bodies, by id, that go together, where they pressed with more than a blow."""
+    """Clear the cached forces below bodies that are removed together, if they exceeded those of an impact. ids: of
+    these bodies.
+    """
     contacts, bodies = world.contact_rows, world.bodies
     ids_a, ids_b = contacts["body_a"], contacts["body_b"]
     going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)

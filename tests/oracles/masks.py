@@ -1,8 +1,11 @@
-"""Two bitmaps, pixel by pixel."""
+"""Overlap of two bitmaps, pixel by pixel."""
 
 
 def shared_pixels(a, a_left, a_top, b, b_left, b_top):
-    """Return [(x, y), ...] in reading order, of the pixels that two bitmaps [row][col] drawn at whole places share."""
+    """Return [(x, y), ...] of the pixels that two bitmaps [row][col] share, in reading order.
+
+    a_left, a_top, b_left, b_top: integer positions of their top left corners.
+    """
     found = []
     for row in range(len(a)):
         for column in range(len(a[row])):
@@ -14,7 +17,7 @@ def shared_pixels(a, a_left, a_top, b, b_left, b_top):
 
 
 def bounds(a, left, top):
-    """Return (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None when there is none."""
+    """Return (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None if there are none."""
     solid = [(i + left, j + top) for j, row in enumerate(a) for i, pixel in enumerate(row) if pixel]
     if not solid:
         return None
@@ -23,5 +26,5 @@ def bounds(a, left, top):
 
 
 def least_overlap(a, b):
-    """The shortest move along an axis that parts two rectangles."""
+    """Return the shortest move along x or y that separates two rectangles (left, top, right, bottom)."""
     return min(a[2] - b[0], b[2] - a[0], a[3] - b[1], b[3] - a[1])

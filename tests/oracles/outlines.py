@@ -1,4 +1,4 @@
-"""Exact outlines of shapes at a pose, as shapely geometry: an independent truth for overlap, depth and distance."""
+"""Exact outlines of shapes at a pose, as shapely geometry: an independent reference for overlap, depth and distance."""
 
 import math
 from itertools import pairwise
@@ -9,42 +9,44 @@ from shapely.ops import unary_union
 
 
 def placed(points, pose):
-    """Points turned clockwise on the screen by pose[2] and moved."""
+    """Return points rotated clockwise on the screen by pose[2] and moved to (pose[0], pose[1])."""
     x, y, angle = pose
     c, s = math.cos(angle), math.sin(angle)
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
 
 
 def polygon(points, pose):
-    """A convex polygon at a pose."""
+    """Return a convex polygon at a pose as a shapely Polygon."""
     return Polygon(placed(points, pose))
 
 
 def rectangle(width, height, pose):
-    """A box of full sizes around its centre at a pose."""
+    """Return a box with these full sizes, centred on a pose."""
     w, h = width / 2.0, height / 2.0
     return polygon([(-w, -h), (w, -h), (w, h), (-w, h)], pose)
 
 
 def rounded_union(parts, pose):
-    """The union of (corners, radius): points, lines and convex polygons grown by a radius, to 1e-6 of it."""
+    """Return the union of parts (corners, radius) at a pose: points, lines and convex polygons grown by a radius, to
+    1e-6 of it.
+    """
     cores = [(MultiPoint(placed(corners, pose)).convex_hull, radius) for corners, radius in parts]
     return unary_union([core.buffer(radius, quad_segs=512) if radius > 0.0 else core for core, radius in cores])
 
 
 def moved(geometry, pose):
-    """A geometry in body space, turned clockwise on the screen by pose[2] and moved."""
+    """Return a geometry in body space, rotated clockwise on the screen by pose[2] and moved."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     return affine_transform(geometry, [c, -s, s, c, pose[0], pose[1]])
 
 
 def bounds_of(geometry):
-    """The AABB as a polygon."""
+    """Return the AABB of a geometry as a polygon."""
     return box(*geometry.bounds)
 
 
 def pixels(solid, left, top):
-    """The union of pixel squares."""
+    """Return the union of the squares of solid[row][col], whose top left corner is at (left, top)."""
     return unary_union(
         [
             box(left + i, top + j, left + i + 1, top + j + 1)
@@ -56,7 +58,9 @@ def pixels(solid, left, top):
 
 
 def tiles(solid, slopes, size, x, y):
-    """The union of solid tiles and slopes (left, right heights as fractions) with the top left corner at x, y."""
+    """Return the union of solid tiles and slopes (left and right heights as fractions), with the top left corner at (x,
+    y).
+    """
     parts = []
     for j, row in enumerate(solid):
         for i, full in enumerate(row):
@@ -72,14 +76,16 @@ def tiles(solid, slopes, size, x, y):
 
 
 def disc_gap(geometry, x, y, radius):
-    """Signed gap between a disc and a convex geometry: distance outside, minus the depth of the centre inside."""
+    """Return the signed gap of a disc and a convex geometry: the distance outside, minus the depth of the centre
+    inside.
+    """
     point = Point(x, y)
     inside = geometry.contains(point)
     return (-geometry.exterior.distance(point) if inside else geometry.distance(point)) - radius
 
 
 def convex_depth(a, b):
-    """Return the depth of two overlapping convex polygons: the least push along a face normal that separates them."""
+    """Return the depth of two overlapping convex polygons: the least move along a face normal that separates them."""
     least = math.inf
     for first, second in ((a, b), (b, a)):
         corners = list(first.exterior.coords)

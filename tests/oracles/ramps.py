@@ -4,14 +4,14 @@ import math
 
 
 def reach(points, radius, x, y):
-    """Return the reach [px] of a rounded hull of points from its origin along a unit direction."""
+    """Return the greatest extent [px] of a rounded hull from its origin along the unit direction (x, y)."""
     return max(px * x + py * y for px, py in points) + radius
 
 
 def resting_y(points, radius, x, slope, through=(0.0, 0.0)):
-    """Height y [px] of the origin of a shape at x that touches a line from above, down the screen.
+    """Return the y [px] of the origin of a shape at x that touches a line from above; y points down the screen.
 
-    The line rises by `slope` per px to the right and goes through a point.
+    The line rises by `slope` per px to the right and passes through the point `through`.
     """
     length = math.sqrt(1.0 + slope * slope)
     nx, ny = slope / length, 1.0 / length  # into the ground
@@ -20,6 +20,6 @@ def resting_y(points, radius, x, slope, through=(0.0, 0.0)):
 
 
 def slide(slope, way):
-    """Return the displacement (x, down) [px] along a slope that results from a motion straight down by `way` [px]."""
+    """Return the displacement (x, down) [px] along a slope that a motion of `way` [px] straight down is turned into."""
     angle = math.atan(slope)
     return -way * math.sin(angle) * math.cos(angle), way * math.sin(angle) ** 2

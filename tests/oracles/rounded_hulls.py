@@ -1,6 +1,7 @@
 """Bounds on the distance of many pairs of rounded convex outlines at once, without a distance algorithm.
 
-From below the best of many separating axes, from above points on both; NumPy over pairs, nothing from physics.
+The lower bound is the best of many separating axes, the upper bound a distance of points on both outlines. The arrays
+run over the pairs; nothing is imported from physics.
 """
 
 from typing import NamedTuple
@@ -9,19 +10,19 @@ import numpy as np
 
 
 class Hulls(NamedTuple):
-    """One side of n pairs: a disc has one corner, a line or a capsule two."""
+    """One shape of each of n pairs; a disc has one corner, a line or a capsule two."""
 
     corners: np.ndarray  # (n, m, 2) [px]; a hull of fewer corners repeats its last one
     radii: np.ndarray  # (n,) [px] rounding
 
     def placed(self, x, y, angle):
-        """These hulls turned by angle [rad] about their origins, and moved by (x, y) [px]."""
+        """Return these hulls rotated by angle [rad] about their origins and moved by (x, y) [px]."""
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         u, v = self.corners[..., 0], self.corners[..., 1]
         return Hulls(np.stack([x[:, None] + c * u - s * v, y[:, None] + s * u + c * v], axis=2), self.radii)
 
     def boxes(self):
-        """Return (lower, upper) corners (n, 2) of their AABBs."""
+        """Return the (lower, upper) corners (n, 2) of the hulls' AABBs."""
         radius = self.radii[:, None]
         return self.corners.min(axis=1) - radius, self.corners.max(axis=1) + radius
 
@@ -34,14 +35,14 @@ class Bounds(NamedTuple):
 
 
 def gap_along(a, b, normal):
-    """Return (n,) gaps [px] between the shadows on directions (n, 2) from A to B. No gap exceeds the distance."""
+    """Return (n,) gaps [px] between the projections on directions (n, 2) from A to B; no gap exceeds the distance."""
     shadow_a = np.einsum("nmk,nk->nm", a.corners, normal).max(axis=1)
     shadow_b = np.einsum("nmk,nk->nm", b.corners, normal).min(axis=1)
     return shadow_b - shadow_a - a.radii - b.radii
 
 
 def bounds(a, b):
-    """Bounds on the distances of pairs of hulls."""
+    """Return the bounds of the distances of pairs of hulls."""
     axis = nearest_axis(a, b)
     lower = np.where(np.isnan(axis[:, 0]), -np.inf, gap_along(a, b, np.nan_to_num(axis)))
     radii = a.radii + b.radii
@@ -57,7 +58,9 @@ def bounds(a, b):
 
 
 def nearest_axis(a, b):
-    """Return (n, 2) unit vectors from the nearest point of A's outline to that of B's; NaN where they meet."""
+    """Return (n, 2) unit vectors from the nearest point of A's outline to that of B's; NaN if
+    these points are equal.
+    """
     of_b, on_a = _nearest(a.corners, b.corners)
     of_a, on_b = _nearest(b.corners, a.corners)
     first = np.hypot(*(of_b - on_a).T) <= np.hypot(*(of_a - on_b).T)
@@ -67,15 +70,15 @@ def nearest_axis(a, b):
 
 
 def distance_to_core(hulls, points):
-    """Return (n,) distances [px] of points (n, 2) from the edges of their hulls, roundings left out."""
+    """Return (n,) distances [px] of points (n, 2) from the edges of their hulls, without the rounding radius."""
     of, on = _nearest(hulls.corners, points[:, None])
     return np.hypot(*(of - on).T)
 
 
 def _nearest(corners, points):
-    """Return (points, places), (n, 2) each: the nearest of an outline's `points`, and the nearest place on its edges.
+    """Return (points, edge points), (n, 2) each: the point nearest to an outline, and the nearest point on its edges.
 
-    corners (n, m, 2): corners of the outlines; points (n, k, 2): the points to compare.
+    corners (n, m, 2): corners of the outlines. points (n, k, 2): the points to compare.
     """
     edges = np.roll(corners, -1, axis=1) - corners
     square = (edges * edges).sum(axis=2)

@@ -1,4 +1,4 @@
-"""Unions of pixel squares at exact poses, as shapely geometry, and poses at which two of them are near touching."""
+"""Unions of pixel squares at exact poses, as shapely geometry, and poses at which two of them nearly touch."""
 
 import math
 
@@ -13,12 +13,12 @@ ROUNDS = 40
 
 
 def union_of(solid, origin):
-    """The squares of solid[row][col] in body space."""
+    """Return the union of the squares of solid[row][col] in body space."""
     return pixels(solid, -origin[0], -origin[1])
 
 
 def at(union, pose):
-    """A union at a pose (x, y, angle), clockwise on the screen."""
+    """Return a union at a pose (x, y, angle); the rotation is clockwise on the screen."""
     x, y, angle = pose
     c, s = math.cos(angle), math.sin(angle)
     return affinity.affine_transform(union, [c, -s, s, c, x, y])
@@ -63,5 +63,5 @@ def random_pose(rng, a, b, near):
 
 
 def convex(points, pose):
-    """A convex polygon at a pose."""
+    """Return a convex polygon at a pose."""
     return at(Polygon(points), pose)

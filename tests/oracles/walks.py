@@ -1,8 +1,8 @@
-"""Test of a box of whole pixels against the ground, tile by tile and pixel column by pixel column."""
+"""Test of a box of whole pixels against tile ground, tile by tile and pixel column by pixel column."""
 
 
 def inside_ground(solid, slopes, size, left, top, width, height):
-    """Return True when the box shares area with a solid tile, or one of its columns reaches below a slope's surface."""
+    """Return whether the box shares area with a solid tile, or one of its columns reaches below a slope's surface."""
     for j in range(len(solid)):
         for i in range(len(solid[j])):
             x, y = i * size, j * size

@@ -1,4 +1,4 @@
-"""Pixels to fit shapes to, and what they are in truth: naive loops and shapely."""
+"""Test masks for outlines, and reference functions by simple loops and shapely."""
 
 import numpy as np
 import shapely
@@ -23,12 +23,12 @@ HARD = {
 
 
 def raster(rows):
-    """solid[row, col] from lines of text."""
+    """Return the pixels solid[row, col] of lines of text, in which # is solid."""
     return np.array([[each == "#" for each in row] for row in rows])
 
 
 def hard():
-    """Return (name, solid) of the difficult rasters."""
+    """Return a list of (name, solid) of the difficult masks."""
     found = {name: raster(rows) for name, rows in HARD.items()}
     found["checkerboard"] = np.indices((7, 6)).sum(axis=0) % 2 == 0
     found["diagonal"] = np.eye(9, dtype=bool)
@@ -36,7 +36,7 @@ def hard():
 
 
 def noise(seed, count, largest=15):
-    """Random masks of all sizes and fillings."""
+    """Yield `count` random masks of all sizes and densities."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         height, width = rng.integers(1, largest, 2)
@@ -44,14 +44,14 @@ def noise(seed, count, largest=15):
 
 
 def disc(radius, around=(0.0, 0.0)):
-    """Pixels whose centre lies in a disc around the middle of the raster."""
+    """Return the pixels whose centre lies in a disc. around: offset of its centre from the middle of the raster."""
     size = int(2 * radius + 4)
     y, x = np.mgrid[:size, :size] + 0.5 - size / 2.0
     return (x - around[0]) ** 2 + (y - around[1]) ** 2 <= radius * radius
 
 
 def sprites():
-    """Yield (name, solid) of some drawn sprites."""
+    """Yield (name, solid) of some of the game's sprites."""
     for sheet, step in (("planes", 9), ("hero", 11), ("things", 7)):
         frames, _ = load(sheet)
         for name in sorted(frames)[::step]:
@@ -61,17 +61,17 @@ def sprites():
 
 
 def pixels(solid):
-    """The union of the pixel squares."""
+    """Return the union of the squares of the solid pixels."""
     return shapely.union_all([box(i, j, i + 1, j + 1) for j, i in np.argwhere(solid).tolist()])
 
 
 def polygons(pieces):
-    """Shapely polygons of (outer, holes)."""
+    """Return the shapely polygons of pieces (outer, holes)."""
     return [Polygon(outer, holes) for outer, holes in pieces]
 
 
 def connected(solid, diagonal):
-    """The number of connected pieces, by flooding."""
+    """Return the number of connected pieces, by flood fill. diagonal: True connects pixels that share only a corner."""
     left, count = {tuple(place) for place in np.argwhere(solid).tolist()}, 0
     while left:
         edge, count = [left.pop()], count + 1
@@ -86,7 +86,9 @@ def connected(solid, diagonal):
 
 
 def lies_on_the_right_side(figure, solid, spare=0.0):
-    """Return whether a figure contains the centre of each solid pixel and of no clear one, within a tolerance [px]."""
+    """Return whether a figure contains the centre of each solid pixel and of no other pixel,
+    within a tolerance [px].
+    """
     rows, columns = np.mgrid[-1 : solid.shape[0] + 1, -1 : solid.shape[1] + 1] + 0.5
     shapely.prepare(figure)
     inside = shapely.contains_xy(figure, columns, rows)
@@ -96,7 +98,8 @@ def lies_on_the_right_side(figure, solid, spare=0.0):
 
 
 def gaps(figure, solid):
-    """Return (greatest distance of the figure's boundary from the pixels' edges, and of these edges from the boundary).
+    """Return the greatest distances (of the figure's boundary from the pixel edges, of the pixel edges from the
+    boundary).
 
     The boundary and the edges are sampled every 0.05 px.
     """

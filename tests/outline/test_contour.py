@@ -1,4 +1,4 @@
-"""Crack loops against flooding and unions of squares."""
+"""Boundary loops of pixel regions, compared with flood fill and unions of squares."""
 
 import numpy as np
 import pytest

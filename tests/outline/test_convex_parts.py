@@ -1,4 +1,4 @@
-"""Convex parts are exactly the polygon, few, and know their inner sides."""
+"""Convex parts equal the polygon exactly, are few, and mark their inner sides."""
 
 import math
 
@@ -19,10 +19,10 @@ SQUARE = np.array([[0, 0], [10, 0], [10, 10], [0, 10]], float)
 
 
 def check(outer, holes=()):
-    """Return the convex parts of a polygon, after a check of all that must hold for them.
+    """Return the convex parts of a polygon, after a check of their properties.
 
-    They must be exact and convex, with at most 16 corners, inner sides inside the polygon and the others on its
-    outline.
+    They must cover the polygon exactly and be convex, with at most 16 corners. Sides marked as inner must be inside the
+    polygon, and the others on its outline.
     """
     parts = convex_parts(outer, holes)
     whole = Polygon(outer, holes)

@@ -1,4 +1,6 @@
-"""Balls bounce off drawn discs as off discs: normals of outlines along arcs, beside walls that stay exact."""
+"""Balls bounce off drawn discs as off real discs: outline normals along arcs are right, and
+straight walls stay exact.
+"""
 
 import math
 
@@ -16,7 +18,7 @@ MARGIN = 20  # [px] of the raster around a disc: from a radius of 45 px on outli
 
 
 def drawn(radius, center, hole=False):
-    """Return the pixels with their centres in a disc, or all others for a hole, and the centre of the disc."""
+    """Return the pixels whose centres lie in a disc, or for a hole all other pixels."""
     size = 2 * radius + 2 * MARGIN
     y, x = np.mgrid[:size, :size] + 0.5 - size / 2.0
     inside = (x - center[0]) ** 2 + (y - center[1]) ** 2 <= radius * radius
@@ -24,9 +26,9 @@ def drawn(radius, center, hole=False):
 
 
 def normal_errors(corners, center, radius, ball, hole=False, count=360):
-    """Angles [degrees] between the normals of an outline where a ball touches it and those of the disc.
+    """Return the angles [degrees] between the normals of an outline where a ball touches it and those of the disc.
 
-    corners (n, 2): of the outline; the ball's centre lies at equal angles around that of the disc.
+    corners (n, 2): of the outline. The ball's centre is at `count` equal angles around the centre of the disc.
     """
     angles = (np.arange(count) + 0.37) * math.tau / count
     out = np.stack([np.cos(angles), np.sin(angles)], axis=1)
@@ -69,7 +71,7 @@ def test_normals_along_drawn_arcs(radius, most, most_in_holes, hole):
 
 
 def bounce_errors(radius, center, ball, hole, seed):
-    """Angles [degrees] between the velocities of balls after an elastic bounce and those after one off the disc."""
+    """Return the angles [degrees] between the velocities of balls after an elastic bounce off a mask and off a disc."""
     rng = np.random.default_rng(seed)
     world = World(Effects.rigid_bodies().with_(sleeping=False), gravity=(0, 0))
     world.add_body(PixelMask(drawn(radius, center, hole), None), kind="static", material=ELASTIC)
@@ -126,19 +128,19 @@ def test_walls_and_corners_beside_curves_stay():
 
 
 def ramp(run, rise, shift):
-    """Pixels of level ground, a slope and level ground again."""
+    """Return the pixels of level ground, a slope and level ground again."""
     y, x = np.mgrid[:120, :140]
     return 119 - y < 20 + np.clip((x - 40 + shift) * rise // run, 0, 60 * rise // run)
 
 
 def polygon(corners, size=100):
-    """Pixels whose centres lie in a polygon."""
+    """Return the pixels whose centres lie in a polygon."""
     y, x = np.mgrid[:size, :size] + 0.5
     return shapely.contains_xy(shapely.Polygon(corners), x, y)
 
 
 def turned(count, radius, angle):
-    """Corners of a regular polygon in the middle of 100 px."""
+    """Return the corners of a regular polygon around (50, 50)."""
     angles = angle + np.arange(count) * math.tau / count
     return np.stack([50 + radius * np.cos(angles), 50 + radius * np.sin(angles)], axis=1)
 
@@ -157,7 +159,7 @@ def straight_drawings():
 
 @pytest.mark.parametrize("solid", [pytest.param(solid, id=name) for name, solid in straight_drawings()])
 def test_straight_drawings_have_the_fewest_lines(solid):
-    """To the bit: walls, slopes and corners do not change because drawings may have curves."""
+    """Drawings with straight sides have the same outline with and without curve fitting, to the bit."""
     (piece,) = pieces_of(solid, 0.5)
     lines, fewest = (smoothed(piece.outer, LARGEST_REACH, curves) for curves in (True, False))
     assert lines.tolist() == fewest.tolist()

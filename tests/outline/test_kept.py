@@ -1,4 +1,4 @@
-"""Outlines that are kept beside the art are those that are fitted anew, and nothing else is ever taken for them."""
+"""Outlines stored with the art equal newly fitted ones, and are used only for the masks that they belong to."""
 
 import subprocess
 import sys
@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def alone(monkeypatch):
-    """Empty the cache of all but a test's own entries."""
+    """Empty the cache of outlines, so that it has only a test's own entries, and return its module."""
     monkeypatch.setattr(kept, "_kept", {})
     monkeypatch.setattr(kept, "_files", [])
     monkeypatch.setattr(kept, "recorded", {})
@@ -24,7 +24,7 @@ def alone(monkeypatch):
 
 
 def rasters():
-    """Random rasters of several densities and sizes, and simple ones."""
+    """Yield random rasters of several densities and sizes, and simple ones."""
     rng = np.random.default_rng(5)
     for size in (1, 3, 8, 17):
         for density in (0.2, 0.5, 0.9):
@@ -95,7 +95,7 @@ def test_another_key_is_not_found(alone, monkeypatch, change):
 
 
 def damaged(path):
-    """Ways to spoil a file of outlines, each with the bytes that it leaves."""
+    """Yield the contents of a file of outlines that is damaged in different ways."""
     content = path.read_bytes()
     yield b""
     yield content[: len(content) // 2]
@@ -129,14 +129,17 @@ def test_a_file_whose_numbers_do_not_agree_holds_nothing(alone, tmp_path):
 
 
 def test_the_shipped_file_is_of_this_code_and_not_empty():
-    """Were it not, every start without compiled kernels would fit all outlines anew: run python -m scenes.outlines."""
+    """The shipped file of outlines belongs to this code and is not empty.
+
+    Otherwise every start without compiled kernels would fit all outlines again: run python -m scenes.outlines.
+    """
     found = kept._read(OUTLINES)
     solid = np.zeros((1, 1), bool)
     assert len(found) > 100 and kept._key("mask_parts", solid, 0.5) not in found
 
 
 def test_the_shipped_outlines_are_found(alone, monkeypatch):
-    """The masks of the platformer's start, without any fit."""
+    """The shipped outlines cover the masks at the start of the scenes, so nothing is fitted again."""
     code = (
         "from game.run.headless import start_dummy_display; start_dummy_display()\n"
         "from game.registry import Registry\nfrom scenes import SCENES\n"

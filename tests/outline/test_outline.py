@@ -1,6 +1,4 @@
-"""Outlines keep to the pixels within their documented limits: distances, centres, pieces, sharp corners, few
-corners.
-"""
+"""Outlines follow the pixels within their documented limits: distances, centres, pieces, sharp corners, few corners."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Round pieces come out round, within the contract of outlines; and parts of masks as a whole."""
+"""Round pieces get round outlines within the guarantees of outlines; and complete masks are divided into parts."""
 
 import math
 
@@ -16,7 +16,7 @@ QUARTER = math.pi / 4
 
 
 def figure(part):
-    """A part as a shapely polygon: its corners, grown."""
+    """Return a part as a shapely polygon: its corners, grown by its radius."""
     corners, _, radius = part
     core = (Point, Point, LineString, Polygon)[min(len(corners), 3)]
     return (core(corners[0]) if len(corners) == 1 else core(corners)).buffer(radius, quad_segs=256)
@@ -38,7 +38,7 @@ def check(solid, smooth=0.5):
 
 
 def field(shape, size=60):
-    """Pixels whose centre lies in a shape (distance function of x, y from the middle <= 0)."""
+    """Return the pixels whose centre lies in a shape, a signed distance function of x and y from the middle."""
     y, x = np.mgrid[:size, :size] + 0.5 - size / 2.0
     return shape(x, y) <= 0.0
 

@@ -1,4 +1,4 @@
-"""Outlines in tiles: each tile on its own, and yet one outline."""
+"""Outlines computed tile by tile form one consistent outline."""
 
 import math
 
@@ -15,14 +15,14 @@ SMOOTH = (0.0, 0.1, 0.25, 0.4, 0.5, 1.0)
 
 
 def placed(solid, row, column, height=140, width=140):
-    """A raster with some pixels at a place."""
+    """Return a raster of height x width with some pixels placed at (row, column)."""
     found = np.zeros((height, width), bool)
     found[row : row + solid.shape[0], column : column + solid.shape[1]] = solid
     return found
 
 
 def clouds(seed, size=140):
-    """Blurred noise: islands and caves of any size."""
+    """Return a mask of blurred noise: islands and caves of any size."""
     rng = np.random.default_rng(seed)
     field = rng.random((size + 8, size + 8))
     for _ in range(int(rng.integers(1, 7))):
@@ -45,7 +45,7 @@ def boxes(seed):
 
 
 def stairs(run, rise, shift=0, size=192):
-    """Ground that rises by `rise` px for every `run`."""
+    """Return the pixels of ground that rises by `rise` px for every `run` px."""
     y, x = np.mgrid[:size, :size]
     return (size - 1 - y) * run < (x + shift) * rise + 0.5
 
@@ -84,7 +84,9 @@ def test_stairs_are_as_straight_across_tiles_as_within_one(run, rise, shift):
 
 
 def deviation(figure, angle):
-    """The largest angle [rad] between a direction and a side of the outline within the middle tile and its border."""
+    """Return the largest angle [rad] between a direction and the outline's sides in the middle
+    tile and at its border.
+    """
     corners = shapely.get_coordinates(figure.simplify(1e-6).boundary)
     corners = corners[((corners >= 63) & (corners <= 129)).all(axis=1)]
     along = np.diff(corners, axis=0)
@@ -129,7 +131,7 @@ def test_holes_are_bridged_and_islands_in_them_kept():
 
 
 def test_few_parts():
-    """Beside the optimal partition of the same outlines."""
+    """Tile-wise outlines have at most 1.1 times as many parts as the optimal partition of the same outlines."""
     ours = best = 0
     for seed in range(4):
         solid = placed(clouds(seed, 62), 1, 1, 64, 64)

@@ -1,4 +1,4 @@
-"""Masks in tiles: windows, parts as figures, and all that must hold for them."""
+"""Functions for masks in tiles: windows, parts as shapely figures, and a check of their properties."""
 
 import numpy as np
 import shapely
@@ -12,7 +12,7 @@ TINY = 1e-7
 
 
 def windows(solid, size=SIZE):
-    """Yield (row, column, window) of each tile."""
+    """Yield (row, column, window) of each tile; the window is the tile's pixels with a border of HALO pixels."""
     rows, columns = (-(-side // size) for side in solid.shape)
     wide = np.zeros((rows * size + 2 * HALO, columns * size + 2 * HALO), bool)
     wide[HALO : HALO + solid.shape[0], HALO : HALO + solid.shape[1]] = solid
@@ -23,7 +23,10 @@ def windows(solid, size=SIZE):
 
 
 def parts_of(solid, smooth=0.5, size=SIZE):
-    """Return (row, column, corners, inner) of all parts of all tiles, in pixels of the mask."""
+    """Return (row, column, corners, inner) of all parts of all tiles, in pixels of the mask.
+
+    inner: whether each side is inside the outline.
+    """
     found = []
     for row, column, window in windows(solid, size):
         parts = tile_parts(window, smooth)
@@ -35,23 +38,23 @@ def parts_of(solid, smooth=0.5, size=SIZE):
 
 
 def whole(parts):
-    """Their union, without slivers where they meet in one line."""
+    """Return the union of the parts, without slivers at common sides."""
     together = shapely.union_all([Polygon(corners) for _, _, corners, _ in parts])
     return together.buffer(TINY).buffer(-TINY)
 
 
 def is_near(line, other, distance):
-    """Return whether each point of a line, taken every 0.05 px, is within a distance of another."""
+    """Return whether each point of a line, sampled every 0.05 px, is within a distance of another geometry."""
     points = shapely.points(shapely.get_coordinates(shapely.segmentize(line, 0.05)))
     shapely.prepare(other)
     return bool(shapely.dwithin(other, points, distance).all())
 
 
 def check(solid, smooth=0.5, size=SIZE):
-    """Return the parts of a mask's tiles, after a check of all that must hold for them.
+    """Return the parts of a mask's tiles, after a check of their properties.
 
     Each part must be convex and lie in its tile. Parts must not overlap. Inner sides lie inside the outline and the
-    others on it, and the whole must fulfil the contract of outlines.
+    others on it, and the union must fulfil the guarantees of outlines.
     """
     parts = parts_of(solid, smooth, size)
     if not parts:

@@ -1,1 +1,3 @@
-"""docs/reference.md, from docstrings, signatures and tables: `python -m tests.reference`; `--check` compares."""
+"""Generator of docs/reference.md from docstrings, signatures and tables: `python -m tests.reference`; `--check`
+compares.
+"""

@@ -1,4 +1,6 @@
-"""python -m tests.reference: write docs/reference.md; --check: say whether it is up to date, and where it is not."""
+"""`python -m tests.reference`: write docs/reference.md; `--check`: report whether it is up to date, and the
+differences.
+"""
 
 import sys
 
@@ -6,7 +8,7 @@ from tests.reference.page import PAGE, page
 
 
 def differences(old: str, new: str) -> list[str]:
-    """Return a line for each place where two texts differ: number of the line, both lines."""
+    """Return a text for each line in which two texts differ: line number and both lines."""
     before, after = old.split("\n"), new.split("\n")
     found = [f"{k}: {a!r} -> {b!r}" for k, (a, b) in enumerate(zip(before, after, strict=False), 1) if a != b]
     if len(before) != len(after):
@@ -15,7 +17,7 @@ def differences(old: str, new: str) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the page, or compare it. Return 0 if it is as it should be, 1 if it is not, 2 for a wrong argument."""
+    """Write the page, or compare it. Return 0 if it is up to date, 1 if not, 2 for a wrong argument."""
     if arguments not in ([], ["--check"]):
         print("python -m tests.reference [--check]")
         return 2

@@ -1,4 +1,4 @@
-"""Columns of the arrays that a step leaves behind: name, type and meaning, from the comments at their definition."""
+"""Columns of the arrays that a step returns: name, type and meaning, from the comments at their definitions."""
 
 import ast
 import inspect
@@ -20,7 +20,7 @@ TYPES = {"f": "float", "i": "int", "b": "bool", "U": "str"}
 
 
 class Column(NamedTuple):
-    """One column, or several that share a meaning."""
+    """One column, or several with a common meaning."""
 
     names: tuple[str, ...]
     type: str
@@ -28,7 +28,7 @@ class Column(NamedTuple):
 
 
 class Array(NamedTuple):
-    """An array of the API: how it is read, the table in the source, what a row is."""
+    """An array of the API: how to read it, its table in the source, and the meaning of a row."""
 
     name: str
     dtype: np.dtype
@@ -85,13 +85,13 @@ parsed = cache(ast.parse)
 
 @cache
 def comments(source: str) -> dict[int, str]:
-    """Return the comments of a source by line."""
+    """Return {line number: comment} of a source."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     return {each.start[0]: each.string.lstrip("# ").strip() for each in tokens if each.type == tokenize.COMMENT}
 
 
 def assignment(tree: ast.Module, name: str) -> ast.expr:
-    """Return the value that a module assigns to a name."""
+    """Return the expression that a module assigns to a name. Raises LookupError if there is none."""
     for node in tree.body:
         if isinstance(node, ast.Assign) and any(
             isinstance(each, ast.Name) and each.id == name for each in node.targets
@@ -101,7 +101,7 @@ def assignment(tree: ast.Module, name: str) -> ast.expr:
 
 
 def fields(source: str, name: str) -> dict[str, str]:
-    """Return the comment of each field of a table in a source, "" for none."""
+    """Return {field: its comment} of a table in a source; "" for a field without a comment."""
     tree, known = parsed(source), comments(source)
     found: dict[str, str] = {}
     for node in ast.walk(assignment(tree, name)):
@@ -120,12 +120,12 @@ def source_of(module: ModuleType) -> str:
 
 
 def sibling(name: str) -> str:
-    """Return a name without the end in which it differs from the names beside it."""
+    """Return a name with the ending replaced by "*" that distinguishes it from the names next to it."""
     return SIBLING.sub("*", name)
 
 
 def columns(array: Array) -> list[Column]:
-    """Return the columns of an array in order. A column without a meaning has the text ""."""
+    """Return the columns of an array in order; a column without a comment has the meaning ""."""
     source = source_of(array.module)
     known = {name: text for table in array.tables for name, text in fields(source, table).items()}
     found: list[Column] = []

@@ -1,7 +1,8 @@
-"""Docstrings of the public names: a text, the meaning of each argument, the errors.
+"""Parser of the docstrings of public names: a text, the meaning of each argument, and the errors.
 
-The form. A paragraph that begins with the name of an argument and a colon lists arguments, one on a line, longer ones
-continued on indented lines. Short ones may share a line, separated by semicolons. One meaning may be for several:
+The form: a paragraph that begins with the name of an argument and a colon lists arguments, one on a line; longer ones
+continue on indented lines. Short ones may share a line, separated by semicolons. Several arguments may have one
+meaning:
 
     origin: start of the ray [px].
     lower, upper: corners of the box [px]; filter: which shapes can be hit.
@@ -24,7 +25,7 @@ RAISED = re.compile(rf"\b({'|'.join(ERRORS)})\b")
 
 
 class Described(NamedTuple):
-    """A docstring, taken apart."""
+    """The parts of a docstring."""
 
     text: str  # all paragraphs but those of arguments
     arguments: dict[str, str]  # meaning by name; stars are part of a name
@@ -32,12 +33,12 @@ class Described(NamedTuple):
 
 
 def named(names: str) -> list[str]:
-    """Return the single names of an entry."""
+    """Return the single names in a comma-separated list."""
     return [each.strip() for each in names.split(",")]
 
 
 def entries(paragraph: list[str], known: set[str]) -> tuple[dict[str, str], list[str]]:
-    """Return the arguments of a paragraph, and the lines that are not in the form. known: names of the arguments."""
+    """Return ({argument: meaning} of a paragraph, lines that do not have the form). known: names of the arguments."""
     found, faults, joined = {}, [], []
     for line in paragraph:
         if line.startswith(" ") and joined:
@@ -63,7 +64,7 @@ def entries(paragraph: list[str], known: set[str]) -> tuple[dict[str, str], list
 
 
 def described(documentation: str | None, known: set[str]) -> Described:
-    """Take a docstring apart. known: names of the arguments, with stars."""
+    """Return the parts of a docstring. known: names of the arguments, with stars."""
     kept, arguments, faults = [], {}, []
     for paragraph in re.split(r"\n\s*\n", documentation or ""):
         lines = paragraph.rstrip().split("\n")
@@ -135,7 +136,7 @@ def definition(member: Any) -> ast.FunctionDef | ast.ClassDef | None:
 
 
 def first_line(node: ast.FunctionDef | ast.ClassDef) -> int:
-    """Return the line on which a definition begins, its decorators included."""
+    """Return the first line number of a definition, including its decorators."""
     return min([node.lineno, *(each.lineno for each in node.decorator_list)])
 
 
@@ -145,7 +146,9 @@ def is_overload(node: ast.FunctionDef | ast.ClassDef) -> bool:
 
 
 def annotations(member: Any) -> dict[str, str]:
-    """Return the annotations of a callable as they are written, by argument; "return" is that of the result."""
+    """Return the annotations of a callable as written in the source, {argument: annotation};
+    "return" for the result.
+    """
     if isinstance(member, type):
         own = vars(member).get("__init__")
         node = definition(own) if own is not None else None
@@ -170,7 +173,7 @@ def annotations(member: Any) -> dict[str, str]:
 
 
 def fields_of(kind: type) -> dict[str, str]:
-    """Return the annotated fields of a class body."""
+    """Return {field: annotation} of the annotated fields in a class body."""
     node = definition(kind)
     if not isinstance(node, ast.ClassDef):
         return {}
@@ -182,7 +185,7 @@ def fields_of(kind: type) -> dict[str, str]:
 
 
 def parameters(member: Any) -> dict[str, inspect.Parameter]:
-    """Return the parameters of a callable by name, with stars, without self and cls."""
+    """Return {name: parameter} of a callable, with stars in the names, without self and cls."""
     stars = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
     if isinstance(member, type):
         signature = inspect.signature(member)

@@ -1,7 +1,6 @@
-"""The examples of docs/reference.md: a doctest for each callable, run after the lines of BEFORE.
+"""Examples of docs/reference.md: a doctest for each callable, run after the lines of BEFORE.
 
-Those of the names that a newcomer meets first are in their docstrings, where help() shows them; examples.txt has the
-others.
+The examples of the most used names are in their docstrings, where help() shows them; examples.txt has the others.
 """
 
 import doctest
@@ -31,7 +30,7 @@ OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 @cache
 def examples() -> dict[str, str]:
-    """Return the text of each example by the name that it shows. Raises ValueError for a name that is listed twice."""
+    """Return {name: text of its example}. Raises ValueError for a name with two examples."""
     found = {name: each.example for name, each in items().items() if each.example and not each.repeats}
     for name, text in re.findall(r"^== (\S+)\n(.*?)(?=^== |\Z)", PLACE.read_text(encoding="utf-8"), re.S | re.M):
         if name in found:
@@ -49,7 +48,7 @@ def prepared() -> dict[str, Any]:
 
 
 def run(name: str, text: str, names: dict[str, Any]) -> str:
-    """Run an example after the lines of BEFORE, in `names`. Return what doctest reports, "" if all is as expected."""
+    """Run an example after the lines of BEFORE, in the namespace `names`. Return doctest's report, "" if it passes."""
     test = doctest.DocTestParser().get_doctest(as_in_a_checkout(text), names, name, str(PLACE), 0)
     reported: list[str] = []
     doctest.DocTestRunner(optionflags=OPTIONS, verbose=False).run(test, out=reported.append, clear_globs=False)

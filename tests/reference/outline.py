@@ -1,4 +1,4 @@
-"""The order of docs/reference.md: its sections, their introductions, and the names that each shows."""
+"""Structure of docs/reference.md: its sections, their introductions, and the names in each section."""
 
 from typing import NamedTuple
 

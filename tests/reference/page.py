@@ -1,4 +1,6 @@
-"""docs/reference.md as a text: the sections of the outline, each name with signature, arguments, errors and example."""
+"""Text of docs/reference.md: the sections of the outline, and each name with signature,
+arguments, errors and example.
+"""
 
 import ast
 import inspect
@@ -34,12 +36,12 @@ def anchor(title: str) -> str:
 
 
 def link(title: str, shown: str | None = None, level: str = "name") -> str:
-    """Return a link to a heading of the page, which `with_anchors` completes. level: "name" or "section"."""
+    """Return a link to a heading; `with_anchors` later inserts the anchor. level: "name" or "section"."""
     return f"[{shown or title}](#{level}:{title})"
 
 
 def with_anchors(text: str) -> str:
-    """Return the page with the anchors of its headings in its links: equal ones are numbered, as GitHub does."""
+    """Return the page with the anchors inserted in its links; equal headings are numbered as on GitHub."""
     used: dict[str, int] = {}
     known = {}
     for marks, title in re.findall(r"^(##+) (.+)$", re.sub(r"^```.*?^```$", "", text, flags=re.S | re.M), re.M):
@@ -50,12 +52,12 @@ def with_anchors(text: str) -> str:
 
 
 def cell(text: str) -> str:
-    """Return a text for a cell: one sentence has no full stop."""
+    """Return a text for a table cell; a single sentence loses its full stop."""
     return text.removesuffix(".") if ". " not in text else text
 
 
 def value_of(default: Any) -> str:
-    """Return a default as the page shows it."""
+    """Return a default value as text for the page."""
     if default is inspect.Parameter.empty:
         return ""
     if isinstance(default, Filter) and default == Filter.ALL:
@@ -87,7 +89,7 @@ def signature(item: Item) -> str:
 
 
 def plain_type(text: str) -> str:
-    """Return an annotation as a reader needs it."""
+    """Return an annotation in a simplified form for readers."""
     text = text.strip("'\"").replace("'", "")
     text = re.sub(r"NDArray\[np\.(\w+?)_?\]", r"array of \1", text)
     text = re.sub(r"\bnp\.ndarray\b|\bArrayLike\b", "array", text)
@@ -122,7 +124,11 @@ def split_errors(text: str) -> tuple[str, str]:
 
 
 def argument_rows(item: Item, left_out: Iterable[str] = ()) -> list[tuple[str, ...]]:
-    """Return a row for each argument, or for several that share a meaning: name, type, default, meaning."""
+    """Return the table rows (name, type, default, meaning) of the arguments; arguments with a common meaning share a
+    row.
+
+    left_out: names of arguments to leave out.
+    """
     given, types = item.parameters, item.annotations
     meanings = described(item.documentation, known_names(item)).arguments
     rows: list[tuple[str, ...]] = []
@@ -152,7 +158,7 @@ def known_names(item: Item) -> set[str]:
 
 
 def shared_with_kind(item: Item) -> list[str]:
-    """Return the arguments of a kind of joint that mean the same for all kinds."""
+    """Return the arguments of a joint class whose meaning is the same for all kinds of joints."""
     if not (item.kind == "class" and issubclass(item.member, Kind) and item.member is not Kind):
         return []
     common = described(items()["Kind"].documentation, known_names(items()["Kind"])).arguments
@@ -191,7 +197,7 @@ def block(item: Item, level: int) -> str:
 
 
 def setter_type(item: Item) -> str:
-    """Return what a property can be set to, "–" if it cannot be set."""
+    """Return the type that a property can be set to, "–" if it cannot be set."""
     if not isinstance(item.member, property) or item.member.fset is None:
         return "–"
     node = definition(item.member.fset)
@@ -230,7 +236,7 @@ def property_table(members: list[Item]) -> str:
 
 
 def placed() -> dict[str, list[Item]]:
-    """Return the items that each section shows, in order: what it names, then the other members of its classes."""
+    """Return {section title: its items in order}: the named ones, and the other members of named classes."""
     everything = items()
     named = {name for section in SECTIONS for name in section.names}
     found = {}
@@ -249,7 +255,7 @@ def placed() -> dict[str, list[Item]]:
 
 
 def section_text(section: Section, shown: list[Item]) -> str:
-    """Return a section: heading, introduction, tables, names."""
+    """Return the text of a section: heading, introduction, tables and names."""
     parts = [f"## {section.title}", section.text]
     parts += [TABLES[name]() for name in section.tables if name not in AFTER_NAMES]
     for item in shown:
@@ -270,7 +276,7 @@ def section_text(section: Section, shown: list[Item]) -> str:
 
 
 def extension_table(members: list[Item]) -> str:
-    """Return the table of methods for those who add a shape, a kind of joint or a broad phase."""
+    """Return the table of the methods that a new shape, joint or broad phase implements."""
     rows = []
     for each in members:
         found = described(each.documentation, set(each.parameters))
@@ -282,7 +288,7 @@ def extension_table(members: list[Item]) -> str:
 
 
 def contents(shown: dict[str, list[Item]]) -> str:
-    """Return the table of contents by subject."""
+    """Return the table of contents by subject. shown: result of `placed`."""
     rows = []
     for title, found in shown.items():
         names: list[str] = []

@@ -89,24 +89,24 @@ class Item(NamedTuple):
 
     @property
     def repeats(self) -> str | None:
-        """Return the name of the interface whose member it implements, None for none."""
+        """Return the name of the interface member that this item implements, or None."""
         if self.owner not in physics.BROADPHASES.values() or not hasattr(Strategy, self.name.rsplit(".", 1)[1]):
             return None
         return "Strategy." + self.name.rsplit(".", 1)[1]
 
     @property
     def is_callable(self) -> bool:
-        """Return whether it takes arguments."""
+        """Return whether the item can be called with arguments."""
         return self.kind in ("class", "function", "method", "class method")
 
     @property
     def parameters(self) -> dict[str, inspect.Parameter]:
-        """Return its parameters by name, with stars."""
+        """Return the parameters of the item by name, with stars."""
         return parameters(self.member) if self.is_callable and takes_arguments(self) else {}
 
     @property
     def documentation(self) -> str | None:
-        """Return its docstring."""
+        """Return the docstring of the item without its example, or None."""
         if self.kind == "attribute":
             assert self.owner is not None
             return described_class(self.owner).get(self.name.rsplit(".", 1)[1])
@@ -114,30 +114,30 @@ class Item(NamedTuple):
 
     @property
     def example(self) -> str:
-        """Return the doctest in its docstring, "" if it has none."""
+        """Return the doctest in the docstring of the item, "" if there is none."""
         return split_example(documentation(self.member))[1] if self.kind not in ("constant", "attribute") else ""
 
     @property
     def annotations(self) -> dict[str, str]:
-        """Return its annotations as written, by argument."""
+        """Return the annotations of the item as written, by argument."""
         return annotations(self.member)
 
 
 def takes_arguments(item: Item) -> bool:
-    """Return whether a user calls a class; instances of the other classes are only returned."""
+    """Return whether an item takes arguments; classes whose instances are only returned do not."""
     return item.kind != "class" or "__init__" not in INNER.get(item.name, ()) and item.name not in ("Shape", "Strategy")
 
 
 @functools.cache
 def described_class(kind: type) -> dict[str, str]:
-    """Return the arguments and attributes that the docstring of a class explains."""
+    """Return {name: meaning} of the arguments and attributes that the docstring of a class explains."""
     known = {*attributes(kind), *(parameters(kind) if kind is not Strategy else ())}
     return described(split_example(documentation(kind))[0], known).arguments
 
 
 @functools.cache
 def attributes(kind: type) -> dict[str, str]:
-    """Return the public attributes that instances of a class have, with their annotations, without properties."""
+    """Return {name: annotation} of the public attributes of instances of a class, without properties."""
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
         node = definition(base) if base.__module__.startswith("physics.") else None
@@ -175,13 +175,15 @@ def assigned(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
 
 
 def owner_of(base: type, names: dict[type, str]) -> str | None:
-    """Return the public name of the class to which the members of a class belong, None for none."""
+    """Return the public name of the class that documents the members of a class, or None."""
     return BASES.get(base) or names.get(base)
 
 
 @functools.cache
 def items() -> dict[str, Item]:
-    """Return all public names in order: exports, classes of results, physics.debug; members follow their class."""
+    """Return {name: Item} of all public names in order: exports, classes of results, physics.debug; members follow
+    their class.
+    """
     exported = {name: getattr(physics, name) for name in physics.__all__}
     drawing = {f"debug.{name}": getattr(debug, name) for name in debug.__all__}
     found: dict[str, Item] = {}
@@ -231,7 +233,7 @@ def own_attributes(base: type) -> frozenset[str]:
 
 
 def how_used(member: Any) -> str | None:
-    """Return how a member of a class is used, None for one that is listed as an attribute."""
+    """Return how a member of a class is used ("property", "method", ...), or None for an attribute."""
     if isinstance(member, property | functools.cached_property):
         return "property"
     if isinstance(member, classmethod):
@@ -240,7 +242,10 @@ def how_used(member: Any) -> str | None:
 
 
 def inherits_its_contract(kind: type, name: str, own: str, names: dict[type, str]) -> bool:
-    """Return whether a member without a docstring of its own overrides one of another public class."""
+    """Return whether a member without its own docstring overrides one of another public class.
+
+    own: public name of the class itself.
+    """
     if own_docstring(vars(kind).get(name)):
         return False
     return any(

@@ -1,4 +1,4 @@
-"""The generated tables of docs/reference.md: effects, words, arrays, solvers, stages, counters, tolerances, types."""
+"""Generated tables of docs/reference.md: effects, keywords, arrays, solvers, stages, counters, tolerances, types."""
 
 import ast
 import inspect
@@ -28,7 +28,7 @@ INNER_TYPES = ("Coordinates", "Corners", "Word", "Rectangle", "Vector")  # of fu
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table in Markdown. Bars within a cell are escaped."""
+    """Return a table in Markdown. Vertical bars in cells are escaped."""
     lines = [list(header), ["---"] * len(header), *(list(row) for row in rows)]
     return "\n".join(
         "| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) + " |" for row in lines
@@ -36,17 +36,17 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def code(text: str) -> str:
-    """Return a text as code."""
+    """Return a text in backquotes, as Markdown code."""
     return f"`{text}`"
 
 
 def words(documentation: str | None) -> dict[str, str]:
-    """Return the meaning of each word that a text explains as "word": meaning."""
+    """Return {keyword: meaning} of the keywords that a text explains as "keyword": meaning."""
     return {word: " ".join(meaning.split()).rstrip(".;") for word, meaning in WORD.findall(documentation or "")}
 
 
 def explained_words(name: str, allowed: Sequence[str], documentation: str | None) -> list[tuple[str, str]]:
-    """Return (word, meaning) for each allowed word. Raises LookupError for a word without a meaning."""
+    """Return (keyword, meaning) for each allowed keyword. Raises LookupError for one without a meaning."""
     known = words(documentation)
     if missing := [each for each in allowed if each not in known]:
         raise LookupError(f"{name}: no meaning of {', '.join(missing)} in its docstring")
@@ -57,7 +57,7 @@ def explained_words(name: str, allowed: Sequence[str], documentation: str | None
 
 
 def called(effects: Iterable[str], solver: str) -> dict[str, Any]:
-    """Return the stages, by name, of a step with exactly these effects."""
+    """Return {name: stage} of a step with exactly these effects."""
     on = SimpleNamespace(**{name: name in set(effects) for name in effect_names()})
     found: Any = plan(on, solver)  # pyright: ignore[reportArgumentType]
     return dict(zip(found.names, found.stages, strict=True))
@@ -69,7 +69,7 @@ def effect_names() -> list[str]:
 
 
 def stages_of(name: str) -> list[str]:
-    """Return the stages that a step has only with an effect, or with one of several that it is one of."""
+    """Return the stages that need an effect: they run only with it, or it is one of several effects that cause them."""
     found = []
     for solver in ("soft_step", "projection"):
         alone, none = called([name], solver), called([], solver)
@@ -80,7 +80,7 @@ def stages_of(name: str) -> list[str]:
 
 
 def effects() -> str:
-    """Return the table of effects: what each adds, needs and runs."""
+    """Return the table of effects: what each adds, the effects that it needs, and its stages."""
     given = items()["Effects"].parameters
     meaning = described_arguments("Effects")
     rows = [
@@ -97,7 +97,7 @@ def effects() -> str:
 
 
 def described_arguments(name: str) -> dict[str, str]:
-    """Return the meanings of the arguments of a public name. Raises LookupError for one without a meaning."""
+    """Return {argument: meaning} of a public name. Raises LookupError if an argument has no meaning."""
     item = items()[name]
     found = described(item.documentation, set(item.parameters)).arguments
     if missing := [each for each in item.parameters if each not in found]:
@@ -106,7 +106,7 @@ def described_arguments(name: str) -> dict[str, str]:
 
 
 def needs_of_stage(stage: str, solver: str) -> str:
-    """Return the effects without which a stage does not run: "–" for none."""
+    """Return the effects that a stage needs as text, "–" if none."""
     names = effect_names()
     if stage in called([], solver):
         return "–"
@@ -116,7 +116,7 @@ def needs_of_stage(stage: str, solver: str) -> str:
 
 
 def stages() -> str:
-    """Return the tables of the stages of a step with a stacking solver and with another one."""
+    """Return the tables of the stages of a step, with a stacking solver and with another one."""
     parts = []
     for title, solver in (("a stacking solver", "soft_step"), ("another solver", "projection")):
         rows = [
@@ -151,24 +151,24 @@ def strategies() -> str:
 
 
 def kinds() -> str:
-    """Return the table of the words of `kind`."""
+    """Return the table of the values of `kind`."""
     return table(("kind", "the body is"), explained_words("kind", KINDS, described_arguments("World.add_body")["kind"]))
 
 
 def continuous() -> str:
-    """Return the table of the words of `continuous`."""
+    """Return the table of the values of `continuous`."""
     text = items()["Body.continuous"].documentation
     return table(("continuous", "path that is tested"), explained_words("continuous", CONTINUOUS, text))
 
 
 def joint_solvers() -> str:
-    """Return the table of the words of `joint_solver`."""
+    """Return the table of the values of `joint_solver`."""
     text = items()["World.joint_solver"].documentation
     return table(("world.joint_solver", "how joints are solved"), explained_words("joint_solver", JOINT_SOLVERS, text))
 
 
 def tiers() -> str:
-    """Return the table of the tiers."""
+    """Return the table of the collision tiers."""
     text = items()["fit"].documentation or ""
     listed = "\n".join(line for line in text.split("\n") if line.startswith('    "'))
     return table(("tier", "shapes"), explained_words("tier", physics.TIERS, listed))
@@ -183,7 +183,7 @@ GROUPS = {  # of the JOINT columns
 
 
 def squared(text: str) -> str:
-    """Return a text with its units as px², px⁴ and s²."""
+    """Return a text with the units px2, px4 and s2 written as px², px⁴ and s²."""
     return re.sub(r"\b(px|s)([24])\b", lambda match: match[1] + {"2": "²", "4": "⁴"}[match[2]], text)
 
 
@@ -222,7 +222,7 @@ def drawing() -> str:
 
 
 def counter_meanings() -> dict[str, str]:
-    """Return the meaning of each counter, the comment beside its name; "" for none."""
+    """Return {counter: the comment beside its name}, "" for one without a comment."""
     source = inspect.getsource(step_state)
     known = comments(source)
     for node in ast.parse(source).body:
@@ -265,7 +265,9 @@ def constants() -> str:
 
 
 def types_of_arguments() -> dict[str, str]:
-    """Return the meaning of each type that annotations of the API name, the comment at its definition or its words."""
+    """Return {type: meaning} of each type in the annotations of the API: the comment at its
+    definition, or its values.
+    """
     source = inspect.getsource(annotations)
     known, found = comments(source), {}
     for node in ast.parse(source).body:

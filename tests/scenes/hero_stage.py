@@ -1,4 +1,4 @@
-"""A few letters of level with a hero in it, for tests of his moves."""
+"""A small level made of letters with the platformer's hero in it, for tests of the hero's moves."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ PROPERTIES = {
 
 
 class Stage:
-    """A few letters of level with a hero in it; run(keys, steps) plays."""
+    """A small level made of letters with a hero in it; run(keys, steps) plays it."""
 
     def __init__(self, text, x, things=()):
         rows = text.strip("\n").split("\n")
@@ -69,7 +69,7 @@ class Stage:
         self.news.clear()
 
     def run(self, keys, count=1):
-        """Hold keys (a string of words) for some steps."""
+        """Play `count` steps while keys are held. keys: names of actions, separated by spaces."""
         for _ in range(count):
             self.inputs.set(InputFrame(frozenset(keys.split())))
             for platform in self.platforms:
@@ -94,7 +94,7 @@ class Stage:
             self.hero.ladders[identity] = self.ladders[identity]
 
     def until(self, keys, met, most=200):
-        """Hold keys until met(hero) is true. Fail if it is not after `most` steps. Return the hero."""
+        """Hold keys until met(hero) is true, and return the hero. Fails if it is not true within `most` steps."""
         for _ in range(most):
             self.run(keys)
             if met(self.hero):
@@ -103,5 +103,5 @@ class Stage:
 
 
 def thing(kind, x, y, width, height, **properties):
-    """An object of the level."""
+    """Return an object of the level (`Thing`), without a name."""
     return Thing(kind, "", x, y, width, height, properties)

@@ -1,11 +1,11 @@
-"""A lander that is played by hand, step by step."""
+"""A lander scene that a test plays step by step."""
 
 from game.input.inputs import InputFrame, InputState
 from scenes.lander.scene import Lander
 
 
 class Flight:
-    """`scene` and the keys of its steps."""
+    """A lander game: `scene`, and the input of its steps."""
 
     def __init__(self, seed=1):
         self.scene = Lander(seed=seed)
@@ -13,17 +13,17 @@ class Flight:
 
     @property
     def ship(self):
-        """Its ship."""
+        """Return the ship of the scene."""
         return self.scene.ship
 
     def step(self, count=1, keys=(), changes=()):
-        """Step with the same keys held."""
+        """Make `count` steps while the same keys are held. changes: (name, value) pairs of settings to change."""
         for _ in range(count):
             self.inputs.set(InputFrame(frozenset(keys), changes=tuple(changes)))
             self.scene.step(self.inputs)
 
     def until(self, done, most, keys=()):
-        """Step until done() is true. Fail if it is not after `most` steps."""
+        """Step until done() is true. Fails if it is not true within `most` steps."""
         for _ in range(most):
             if done():
                 return
@@ -31,7 +31,7 @@ class Flight:
         raise AssertionError(f"not after {most} steps")
 
     def put(self, x, y, velocity=(0.0, 0.0), angle=0.0):
-        """Move the ship to (x, y) [px]."""
+        """Move the ship to (x, y) [px], with this velocity and angle and no rotation."""
         body = self.ship.body
         body.move_to((x, y), angle)
         body.velocity, body.angular_velocity = velocity, 0.0
@@ -43,5 +43,5 @@ class Flight:
         self.put(pad.x, pad.y - 16.0 - high, velocity)
 
     def piece(self, number=0):
-        """Return (id, Cargo) of a piece of cargo."""
+        """Return (id, Cargo) of the piece of cargo with this number."""
         return list(self.scene.yard.cargo.items())[number]

@@ -1,4 +1,4 @@
-"""Short stages for the tests, cut out of the game's own, and a shooter that is played by hand, step by step."""
+"""Short stages for tests, made from the game's own stage, and a shooter scene that a test plays step by step."""
 
 import copy
 import json
@@ -10,23 +10,23 @@ from scenes.shooter.stage import STAGE, Group
 
 
 def own_stage():
-    """The content of the game's own stage file, to be changed."""
+    """Return the content of the game's own stage file as a new dict."""
     return json.loads(STAGE.read_text(encoding="utf-8"))
 
 
 def leader_of(data, kind):
-    """The event of the mid-boss or the boss."""
+    """Return the event of the mid-boss or the boss in a stage. kind: "midboss" or "boss"."""
     return next(event for event in data["events"] if event["event"] == kind)
 
 
 def write(path, data):
-    """Save a stage; returns its path."""
+    """Write a stage to a file and return its path."""
     path.write_text(json.dumps(data), encoding="utf-8")
     return path
 
 
 def boss_stage(path, phases=(0, 1, 2), **changes):
-    """Write a stage with nothing but its boss, with some of its phases and changed fields. Return its path."""
+    """Write a stage that has only its boss, with some of its phases and changed fields of them. Return its path."""
     data = own_stage()
     boss = copy.deepcopy(leader_of(data, "boss"))
     boss["at"] = 0.1
@@ -36,7 +36,7 @@ def boss_stage(path, phases=(0, 1, 2), **changes):
 
 
 def midboss_stage(path, **changes):
-    """Write a stage with a mid-boss, then the boss. Return its path."""
+    """Write a stage with a mid-boss, then the boss. changes: fields of the mid-boss's first phase. Return its path."""
     data = own_stage()
     midboss, boss = (copy.deepcopy(leader_of(data, kind)) for kind in ("midboss", "boss"))
     midboss["at"], boss["at"] = 0.1, 0.5
@@ -46,7 +46,7 @@ def midboss_stage(path, **changes):
 
 
 class Sky:
-    """A shooter without waves, whose plane can be hit from the first step on."""
+    """A shooter without waves of enemies, in which the plane can be hit from the first step on."""
 
     def __init__(self, quiet=True, **chosen):
         self.scene = Shooter(seed=1, **chosen)
@@ -57,18 +57,18 @@ class Sky:
         self.harm()
 
     def harm(self):
-        """Make the plane one that can be hit."""
+        """End the plane's invulnerability, and make one step."""
         self.scene.plane.safe = 0
         self.step()
 
     def step(self, count=1, actions=(), changes=()):
-        """Make `count` steps with actions held."""
+        """Make `count` steps while actions are held. changes: (name, value) pairs of settings to change."""
         for _ in range(count):
             self.inputs.set(InputFrame(frozenset(actions), changes=tuple(changes)))
             self.scene.step(self.inputs)
 
     def until(self, reached, most=2000, actions=()):
-        """Step until something holds; fails if it does not within `most` steps. Returns how many it took."""
+        """Step until reached() is true, and return the number of steps. Fails if it is not true within `most` steps."""
         for number in range(most):
             if reached():
                 return number
@@ -76,7 +76,7 @@ class Sky:
         raise AssertionError(f"not reached within {most} steps")
 
     def enemy(self, kind, x, y, thinks=False, **group):
-        """Return a new plane at (x, y), which stays there unless `thinks` is True."""
+        """Return a new enemy plane at (x, y). thinks: True lets it move and fire; otherwise it does neither."""
         group.setdefault("side", "left")
         made = Group(kind, (0.5,), 0.5, 0.0, "", **group)
         plane = self.scene.fleet.launch(made, 0.5)
@@ -93,7 +93,7 @@ class Sky:
 
 
 def struck_down(kind="gunship", x=240.0, y=90.0, power=0.1, **chosen):
-    """A sky in which a plane was just shot down, and the plane."""
+    """Return (sky, plane): a sky in which the plane was just shot down. power: the plane's health."""
     sky = Sky(**chosen)
     plane = sky.enemy(kind, x, y)
     plane.health = power

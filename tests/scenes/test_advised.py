@@ -1,6 +1,6 @@
-"""Every scene takes what the advice found for it, or says in its source why not; docs/advice.json is about what it is.
+"""Every scene follows its advice in docs/advice.json or states a reason in its source, and the file matches the scenes.
 
-Measured anew with `python -m tests.advised SCENE`: no test measures times.
+`python -m tests.advised SCENE` measures again; no test measures times.
 """
 
 import json

@@ -1,8 +1,8 @@
-"""The games' effects: what is declared changes what happens; of the others it is said which would change nothing.
+"""Each game declares exactly the effects that change it: removing a declared one matters, adding another does not.
 
-The same recorded keys are played with one effect taken out, or put in. An effect goes with all that needs it, and comes
-with what it needs. What cannot even be built without an effect is called for, and says so by the effect's name. The
-labs, and what effects cost: see test_ledger.py.
+The same recorded keys are played with one effect removed or added. An effect is removed with all effects that need it,
+and added with those that it needs. A game that cannot be built without an effect needs it if the error names the
+effect. The labs, and the cost of effects: see test_ledger.py.
 """
 
 import re
@@ -95,7 +95,7 @@ LEDGER = {
 
 
 class Noting:
-    """Source of the bot's input, which also stores the input of each step."""
+    """Source of the bot's input that also stores the input of each step."""
 
     def __init__(self):
         self.bot, self.frames = BotSource(), []
@@ -106,7 +106,7 @@ class Noting:
 
 
 def digests(scene_class, source):
-    """The digest after each frame, as it is played."""
+    """Yield the digest after each frame of a scene played by a source of input."""
     scene = scene_class(seed=1)
     session = Session(scene, source)
     for _ in range(FRAMES[scene_class.name]):
@@ -116,7 +116,7 @@ def digests(scene_class, source):
 
 @pytest.fixture(scope="module")
 def played():
-    """Return played(name), which plays a game once by its bot and returns (scene class, inputs, digests)."""
+    """Return played(name), which plays a game once with its bot and returns (scene class, inputs, digests)."""
     kept = {}
 
     def play(name):
@@ -136,7 +136,7 @@ def with_effects(scene_class, names, wanted):
 
 
 def first_difference(one, other):
-    """The first frame after which two lists of digests differ, None if there is none."""
+    """Return the first frame after which two lists of digests differ; None if they are equal."""
     return next((frame for frame, (a, b) in enumerate(zip(one, other, strict=True), 1) if a != b), None)
 
 
@@ -156,7 +156,10 @@ def cases():
 @pytest.mark.skipif(not physics.JIT, reason="minutes of uncompiled physics")
 @pytest.mark.parametrize("name", FRAMES)
 def test_all_that_is_neutral_changes_nothing_together(played, name):
-    """But for effects that need others which the game does not declare: those make another game of it."""
+    """All neutral effects together change nothing in a game, either.
+
+    Effects that need undeclared effects are left out, because these would change the game.
+    """
     scene_class, keys, standard = played(name)
     neutral = [
         effect

@@ -1,4 +1,4 @@
-"""Filming: every scene has its picture for the menu, a frame is averaged in whole numbers, moments are found."""
+"""Pictures of scenes: each scene has a menu picture, frames are averaged in integers, and moments are found."""
 
 import json
 
@@ -30,7 +30,7 @@ def test_no_two_pictures_are_the_same_and_none_is_left_over():
 
 
 def test_one_picture_regenerates():
-    """All of them do in the deep test of the build."""
+    """The menu picture of lab/cradle equals a newly made one; the nightly build compares all of them."""
     kept = png.decode((PICTURES / "lab_cradle.png").read_bytes())
     assert (filming.menu_picture("lab/cradle") == kept).all()
 

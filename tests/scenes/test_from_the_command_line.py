@@ -1,4 +1,4 @@
-"""`main.py --headless` in a process of its own: what it prints is what a scene does that is stepped here."""
+"""The output of `main.py --headless` in a separate process equals the results of a scene stepped in the test."""
 
 import json
 import subprocess

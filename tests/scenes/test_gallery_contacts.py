@@ -1,4 +1,4 @@
-"""lab/gallery: pages of gates, bowls, wheels and seams keep their word at other speeds, places and sizes, too."""
+"""lab/gallery: the pages of gates, bowls, wheels and seams hold at other speeds, positions and sizes, too."""
 
 from dataclasses import replace
 
@@ -15,7 +15,10 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps for 
 
 
 def both(name, build, steps):
-    """Step both sides of a page from another start; return (naive side, ours)."""
+    """Step both sides of a page with another start; return (naive side, Hitbox side).
+
+    name: name of the page. build: function that builds the start.
+    """
     page = replace(next(page for page in PAGES if page.name == name), build=build)
     sides = []
     for way in (page.naive, page.ours):
@@ -35,7 +38,10 @@ def both(name, build, steps):
 @needs_speed
 @pytest.mark.parametrize("speed", [90.0, 120.0, 180.0, 240.0, 360.0, 480.0])
 def test_a_gate_throws_a_crate_on_the_naive_side_alone(speed):
-    """Two rounds of three gates, each round and gate from another part of a step."""
+    """A gate throws a crate on the naive side only.
+
+    Two rounds of three gates, each at another phase of the step.
+    """
     naive, ours = both("gate", lambda side: build_gates(side, speed), 2 * ROUND)
     limit = speed + PUSH_OUT + FALL
     assert naive.worst > limit, f"{naive.worst:.0f} px/s"
@@ -62,7 +68,7 @@ def test_an_eccentric_wheel_gains_energy_on_the_naive_side_alone(angle):
 @needs_speed
 @pytest.mark.parametrize("speed", [50.0, 60.0, 90.0, 120.0, 150.0])
 def test_a_slider_trips_at_a_seam_on_the_naive_side_alone(speed):
-    """Four laps, each from another part of a step: not each of them trips."""
+    """A slider trips at a seam on the naive side only, in at least one of four laps at different phases of the step."""
     naive, ours = both("seams", lambda side: build_seams(side, (speed,) * len(GROUNDS)), 4 * LAP)
     assert naive.worst > 1.0, f"{naive.worst:.2f} %"
     assert ours.worst <= 0.1 and ours.kept["hop"] < 0.01, f"{ours.worst:.4f} %, {ours.kept['hop']:.4f} px"
@@ -70,7 +76,10 @@ def test_a_slider_trips_at_a_seam_on_the_naive_side_alone(speed):
 
 @needs_speed
 def test_the_simulated_side_is_right_without_its_fault():
-    """With a fifth of the overlap removed in a step the same integrator throws no crate: the fault is the share."""
+    """The naive integrator throws no crate if it removes only a fifth of the overlap in a step.
+
+    Its fault is therefore the share of the overlap.
+    """
     from scenes.lab.gallery.simulated import step_naively
 
     page = next(page for page in PAGES if page.name == "gate")

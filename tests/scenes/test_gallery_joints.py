@@ -1,4 +1,4 @@
-"""lab/gallery: pages of joints keep their word at other angles, masses, speeds and loads, too."""
+"""lab/gallery: the pages of joints hold at other angles, masses, speeds and loads, too."""
 
 from math import degrees
 
@@ -65,7 +65,10 @@ def test_a_bridge_breaks_at_its_load_on_the_direct_side_alone(strongest):
 
 @pytest.mark.parametrize("load", [0.0, 1.0, 50.0, 1000.0])
 def test_each_plank_of_the_bridge_is_in_equilibrium_as_it_hangs(load):
-    """The moments about its left end, of its own weight and of the forces at its right end, cancel."""
+    """Each plank of the hanging bridge is in equilibrium.
+
+    About its left end, the moments of its weight and of the forces at its right end cancel.
+    """
     turns, pull = hanging(load)
     assert len(turns) == PLANKS // 2 and (np.diff(turns) < 0.0).all() and turns[-1] > 0.0
     assert 2.0 * LONG * np.cos(turns).sum() == pytest.approx(SPAN)

@@ -1,4 +1,4 @@
-"""Costs that labs show: a dash until measured outside the frame, over 300 steps of the run's own world."""
+"""Costs in labs: a dash until measured outside the frame, then figures over 300 steps of the lab's own world."""
 
 import re
 

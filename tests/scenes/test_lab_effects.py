@@ -1,4 +1,6 @@
-"""lab/effects: the yard goes on twice from one state, the shown one's stages come and go, each effect is missed."""
+"""lab/effects: two yards start from one state, switched effects add and remove their stages,
+and each effect matters.
+"""
 
 import numpy as np
 import pytest
@@ -151,7 +153,9 @@ def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
 
 
 def price_all(lab, prices, spread):
-    """Store run figures for all effects. prices: {effect: us}; spread [us]: median minus least, of each run."""
+    """Give the lab run times for all effects. prices: {effect: cost [us]}; spread: median minus least time of each run
+    [us].
+    """
     lab.looked = list(NAMES)
     for name in NAMES:
         lab.found[name] = Outcome(1.0 + NAMES.index(name), 0, 0, 0)

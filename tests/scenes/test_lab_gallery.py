@@ -1,4 +1,4 @@
-"""lab/gallery: the naive way leaves each page's limit and ours keeps it, or both are alike."""
+"""lab/gallery: on each page the naive side exceeds the limit and the Hitbox side keeps it, or both are equal."""
 
 import numpy as np
 import pygame
@@ -71,7 +71,7 @@ def test_a_page_is_met_from_both_sides_only():
 
 
 def run(page, effects, steps):
-    """The digests of our side after each step."""
+    """Yield the digests of a page's Hitbox side after each step, with these effects."""
     settings = dict(page.ours.world)
     solver = settings.pop("solver", "soft_step" if effects.stacking else "projection")
     side = Side(page, page.ours, World(effects, solver=solver, **settings))
@@ -154,7 +154,7 @@ def test_a_figure_is_green_only_when_the_page_is_judged():
 
 
 def color_of(scene, figure):
-    """Colours in which a text is drawn."""
+    """Return the set of colours in which a text is drawn in the scene's picture."""
     canvas, found = Canvas(), set()
     canvas.begin((0, 0, 0))
     drawn = canvas.text
@@ -210,7 +210,7 @@ def test_the_thousand_is_stepped_beside_the_game_and_reported_on_its_page():
 
 
 def words(scene, start):
-    """Return the texts of the picture that begin with `start`."""
+    """Return the texts in the scene's picture that begin with `start`."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     scene.draw(canvas, 1.0)
@@ -220,7 +220,7 @@ def words(scene, start):
 @pytest.mark.nightly
 @needs_speed
 def test_the_thousand_keeps_the_limit_too():
-    """499,500 pairs, a step of seconds."""
+    """A thousand bodies at one point keep the limit, too: 499,500 pairs, a step of seconds."""
     scene = opened("point")
     page, request = scene.page, scene.measured()
     for name in request.names:

@@ -1,4 +1,6 @@
-"""lab/joints: six machines that hold, move and break under both tiers, and numbers that are those of the worlds."""
+"""lab/joints: six machines work and break under both joint solvers, and the displayed numbers
+are those of the worlds.
+"""
 
 from math import pi
 
@@ -185,7 +187,7 @@ def test_the_gap_is_that_of_the_joints_that_hold_and_not_of_the_mouse():
 @pytest.mark.parametrize("phase", [k * pi / 6 for k in range(12)])
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_legs_of_the_walker_are_built_without_gaps(side, phase):
-    """The lengths between the places of a leg are those of the plan, wherever its crank pin is."""
+    """The distances between the joints of a walker's leg equal those of the plan at any angle of its crank."""
     plan = {
         name: (side * x, y)
         for name, (x, y) in {
@@ -211,7 +213,7 @@ def test_the_walker_starts_without_a_gap():
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 1.1, -2.0])
 def test_the_drawn_gears_mesh(turn):
-    """Where two gears meet, a tooth of one is at a gap of the other, however far they have turned."""
+    """Drawn gears mesh at any rotation: a tooth of one is at a gap of the other."""
     gears = Gears(World(Joints.effects))
     angles = [turn, -turn * RADII[0] / RADII[1], turn * RADII[0] / RADII[2]]
     for k in (0, 1):

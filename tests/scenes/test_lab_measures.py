@@ -1,4 +1,4 @@
-"""Measuring tools of the labs: slow references against values known by hand, and the hands of lab/shapes."""
+"""Measuring functions of the labs, compared with values known by hand, and the input of lab/shapes."""
 
 from math import pi
 
@@ -24,7 +24,7 @@ def make(name):
 
 
 class Hands:
-    """Frames of input, one step each."""
+    """Source of input frames, one for each step."""
 
     def __init__(self, scene):
         self.scene, self.inputs = scene, InputState()

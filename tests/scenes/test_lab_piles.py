@@ -1,4 +1,4 @@
-"""The lab's piles and collisions beyond their bots: what sliders, keys and the mouse do in them."""
+"""Labs of piles and collisions: effects of sliders, keys and the mouse that their bots do not use."""
 
 from math import hypot, pi
 

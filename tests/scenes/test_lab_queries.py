@@ -1,4 +1,4 @@
-"""lab/queries: the same answer from four worlds, the truth by a look at every shape, what was visited painted."""
+"""lab/queries: four worlds give equal answers, checked by a test of every shape, and the visited boxes are drawn."""
 
 import math
 
@@ -18,7 +18,7 @@ from scenes.lab.query_calls import rows_of
 
 
 class Player:
-    """Input for one scene, step by step."""
+    """Input of a test for one scene, step by step."""
 
     def __init__(self, query="ray", bodies=100):
         self.scene, self.inputs = Queries(3), InputState()

@@ -1,4 +1,4 @@
-"""lab/sleeping: heaps fall asleep, a knock wakes island after island, and the counts are those of the world."""
+"""lab/sleeping: heaps fall asleep, an impact wakes island after island, and the counts are those of the world."""
 
 import numpy as np
 import pytest

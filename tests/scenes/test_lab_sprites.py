@@ -1,4 +1,4 @@
-"""The labs of sprites that are pushed, carved and swept, beyond their bots: tools, prints, figures, walls."""
+"""Labs of sprites that are pushed, carved and swept: tools, drawing, figures and walls that their bots do not test."""
 
 from math import hypot
 

@@ -1,4 +1,6 @@
-"""lab/ladder: what it lights is what shapes cover, and pictures of one's own are taken or refused with a reason."""
+"""lab/ladder: its cells show the area that shapes cover, and a player's own pictures are used
+or refused with a reason.
+"""
 
 import numpy as np
 import pygame
@@ -15,7 +17,7 @@ pytestmark = pytest.mark.usefixtures("display")
 
 @pytest.fixture
 def display():
-    """A format for pictures to be converted to."""
+    """Set a display mode, which pygame needs to convert pictures."""
     pygame.display.init()
     pygame.display.set_mode((480, 270))
 
@@ -50,7 +52,10 @@ def test_an_unknown_shape_is_refused():
 
 
 def test_the_counts_are_near_the_exact_areas():
-    """A pixel's centre stands for its square: counts and areas differ by less than the length of the boundary."""
+    """The pixel counts of the ladder are close to the exact areas: they differ by less than the length of the boundary.
+
+    A pixel counts by its centre.
+    """
     scene = Ladder()
     for tier in TIERS:
         over, missed = scene.counts[tier]

@@ -1,4 +1,4 @@
-"""The lander's rules: flying, fuel, knocks, landings, the line, cargo, shells, ships lost and won."""
+"""Rules of the lander: flight, fuel, impacts, landings, the rope, cargo, shells, lost ships and the end of the game."""
 
 from math import pi
 
@@ -130,7 +130,7 @@ def test_without_ships_it_is_over():
 
 
 def land(flight, number, speed=12.0):
-    """Set the ship down on a pad."""
+    """Land the ship on the pad with this number, at this vertical speed [px/s]."""
     flight.put_over(flight.scene.moon.pads[number], 4.0, (0.0, speed))
     flight.until(lambda: flight.scene.course.mode != FLYING, 200)
 

@@ -1,4 +1,4 @@
-"""The bot lands on all three sites, from any of some seeds, and the same run can be had again from its recording."""
+"""The lander's bot lands on all three sites with several seeds, and its run can be replayed from a recording."""
 
 import pytest
 

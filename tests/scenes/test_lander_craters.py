@@ -1,4 +1,4 @@
-"""Craters in the lander's moon: what is carved, what comes loose, and that picture, flight and physics agree on it."""
+"""Craters in the lander's moon: the carved pixels, detached pieces, and agreement of picture, flight and physics."""
 
 import copy
 
@@ -21,12 +21,12 @@ TOOTH = (2118.0, 668.0)  # the root of a tooth of stone under the cave's roof
 
 
 def solid_of(scene):
-    """The ground's pixels as the physics has them."""
+    """Return the pixels of the ground in the physics, solid[row, column]."""
     return scene.ground.body.shapes[0].solid
 
 
 def carved_disc(x, y, radius):
-    """bool [row, column] of the pixels whose centres are in a disc, closed."""
+    """Return bool [row, column] of the pixels whose centres are in a closed disc."""
     down, across = np.mgrid[0:1024, 0:4096] + 0.5
     return (across - x) ** 2 + (down - y) ** 2 <= radius * radius
 
@@ -96,7 +96,7 @@ def test_flight_and_picture_read_the_same_pixels_as_the_physics():
 
 
 def cut_off_tooth(flight):
-    """Cut a tooth of stone off the roof; the body that it has become."""
+    """Cut a spike of rock off the roof, and return the body that it has become."""
     scene = flight.scene
     flight.step(1, changes=[("assist:invincible", True)])
     before = set(scene.yard.rubble.pieces)

@@ -1,4 +1,4 @@
-"""The lander's picture: text keeps clear of text from the title to the result; drawing changes nothing."""
+"""The lander's picture: texts never overlap from the title to the result, and drawing does not change the game."""
 
 from itertools import combinations
 
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="seconds of play take to
 
 
 def texts(scene):
-    """The words of a picture, none of which is cut off or overlaps another."""
+    """Return the texts of a picture, after a check that none is cut off or overlaps another."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     scene.draw(canvas, 1.0)

@@ -1,4 +1,4 @@
-"""The lander's line as a rope: its length, what it bends around, what tears it, and what is left of it."""
+"""The lander's rope: its length, how it bends around obstacles, what breaks it, and the remaining parts."""
 
 from itertools import pairwise
 from math import hypot, pi
@@ -15,9 +15,9 @@ SKY = (300.0, 160.0)  # [px] nothing is near it
 
 
 def hooked(dx, dy, velocity=(0.0, 0.0)):
-    """Return (flight, load): a ship in the sky with a piece of cargo on its line.
+    """Return (flight, load): a ship in the sky with a piece of cargo on its rope.
 
-    dx, dy: position of the load relative to the ship [px]; velocity: velocity of the load [px/s].
+    dx, dy: position of the load relative to the ship [px]. velocity: velocity of the load [px/s].
     """
     flight = Flight()
     _, piece = flight.piece()
@@ -30,13 +30,13 @@ def hooked(dx, dy, velocity=(0.0, 0.0)):
 
 
 def points(flight):
-    """Ends of the links at their present poses."""
+    """Return the end points of the rope's links at their present poses."""
     world = flight.scene.world
     return flight.scene.line.points(lambda identity: (*world.body(identity).position, world.body(identity).angle))
 
 
 def gap(flight, load):
-    """Distance between the centres of ship and load."""
+    """Return the distance between the centres of mass of ship and load [px]."""
     at = flight.ship.body.center
     return hypot(load.center.x - at.x, load.center.y - at.y)
 
@@ -63,7 +63,7 @@ def test_it_is_tied_at_every_angle_and_never_longer_than_it_was_tied(away, angle
 
 
 def crosses(rock, a, b, margin=2.0):
-    """Return whether the line from a to b leads through a rock, deeper than the margin [px]."""
+    """Return whether the line from a to b passes through the box of a rock, deeper than the margin [px]."""
     left, top, right, bottom = rock.bounds
     shares = [k / 60 for k in range(61)]
     points = [(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])) for share in shares]
@@ -73,7 +73,7 @@ def crosses(rock, a, b, margin=2.0):
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("speed", [15.0, 25.0, 40.0])
 def test_it_bends_around_a_rock(speed, side):
-    """The straight line between ship and load leads through the rock; no link does."""
+    """The rope bends around a rock: the straight line from ship to load passes through the rock, but no link does."""
     flight, load = hooked(0.0, 46.0)
     x, y = flight.ship.x + side * 14.0, flight.ship.y + 24.0
     rock = flight.scene.world.add_body(Polygon.box(16, 16), position=(x, y), kind="static", filter=GROUND)
@@ -90,7 +90,9 @@ def test_it_bends_around_a_rock(speed, side):
 
 @pytest.mark.parametrize("high", [36.0, 38.0, 40.0, 42.0, 46.0, 50.0, 55.0])
 def test_a_gentle_lift_does_not_tear_it(high):
-    """Thrust alone takes a load off the ground, from every height within reach; a slack rope tightens without harm."""
+    """Thrust alone lifts a load off the ground from every height within reach, and a rope that
+    tightens does not break.
+    """
     flight = Flight()
     _, piece = flight.piece()
     x, y = piece.body.position

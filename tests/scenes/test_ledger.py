@@ -1,6 +1,7 @@
-"""The ledger of all scenes: what is declared would be missed; what is not, put in idle, changes nothing, at a price.
+"""The effects of all scenes: each declared one matters, and each other one, added with neutral values, changes no
+digest.
 
-A test that fails here is a finding: take the effect out of the scene's declaration, or say what calls for it.
+A failing test is a finding: remove the effect from the scene's declaration, or add a reason for it.
 """
 
 import math
@@ -47,7 +48,7 @@ def pairs(declared, names):
 
 @pytest.mark.parametrize("name, effect", pairs(True, LABS))
 def test_a_lab_declares_only_what_would_be_missed(name, effect):
-    """Without it bodies go elsewhere, other events are told, or the lab cannot be built or played on."""
+    """Without any of its declared effects, a lab's bodies or events change, or it cannot be built or played."""
     found = entry(scene_class(name), effect, LONGEST.get(name, FRAMES), after=0)
     assert found.matters, f"{name} declares {effect} and does not call for it: {found}"
     if found.refused:
@@ -93,7 +94,7 @@ def test_a_game_that_lets_things_sleep_has_less_to_do(name):
 
 
 class Drop(Scene):
-    """A ball that falls on a floor and bounces, sideways, beside a heap at rest."""
+    """Scene with a bouncing ball that moves sideways, beside a heap at rest."""
 
     name = "drop"
     effects = Effects(response=True, gravity=True, restitution=True, stacking=True, sleeping=True, wind=True)
@@ -123,7 +124,7 @@ class Drop(Scene):
 
 
 class Spins(Drop):
-    """The same scene with a second ball that rotates, so that it cannot be built without rotation."""
+    """The scene Drop with a rotating second ball, so that it cannot be built without rotation."""
 
     effects = Drop.effects.with_(rotation=True)
 
@@ -170,7 +171,9 @@ def test_an_idle_effect_changes_nothing(effect):
 
 
 def test_an_effect_that_is_not_idle_does():
-    """Friction and rotation as the ball's material has them: what idles is the value, not the effect."""
+    """An added effect changes the scene if the bodies' values use it: friction and rotation
+    with the ball's material.
+    """
     rubs = variant(Drop, Drop.effects.with_(friction=True))
     assert entry(rubs, "friction", 90).matters and set(NEUTRAL) <= set(EFFECTS)
     turning = entry(variant(Drop, Drop.effects.with_(friction=True)), "rotation", 90)

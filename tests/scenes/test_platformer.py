@@ -1,4 +1,6 @@
-"""The platformer's rules: pick-ups, checkpoints, hurts, enemies, crates, assists, the goal, and words on the screen."""
+"""Rules of the platformer: pick-ups, checkpoints, injuries, enemies, crates, assists, the goal, and texts on the
+screen.
+"""
 
 import pytest
 
@@ -22,7 +24,7 @@ def start(frames=(), seed=1, **assists):
 
 
 def put(scene, x, bottom):
-    """Place the hero with the middle of his feet at a point."""
+    """Place the hero with the middle of its feet at (x, bottom)."""
     scene.hero.place((x, bottom - HEIGHT / 2))
 
 
@@ -36,7 +38,7 @@ def enemy_of(scene, kind):
 
 
 def beside(scene, enemy):
-    """Put him where the enemy runs into him."""
+    """Place the hero where the enemy will run into it."""
     put(scene, enemy.character.position[0] + 20 * enemy.way, enemy.bottom)
 
 
@@ -198,7 +200,7 @@ def test_a_new_life_is_spared_by_enemies_for_a_moment():
 
 
 def drop_crate(scene, x, bottom, speed):
-    """Let the large crate come down at a place; its lower edge starts 20 px above it."""
+    """Drop the largest crate at (x, bottom) and return its body; its lower edge starts 20 px above the point."""
     crate = max(scene.things.crates, key=lambda one: one.size).body
     crate.move_to((x, bottom - 20 - 16), 0.0)
     crate.velocity = (0.0, speed)

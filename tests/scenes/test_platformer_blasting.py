@@ -1,4 +1,6 @@
-"""A bomb is carried, thrown and bursts; a wall's pixels become rubble that falls, rests, is pushed and climbed."""
+"""A bomb is carried, thrown and explodes; the pixels of a wall become rubble that falls, rests,
+is pushed and climbed.
+"""
 
 import copy
 
@@ -15,7 +17,7 @@ from scenes.platformer.scene import Platformer
 
 
 class Cave:
-    """The game's own level, the hero beside the bomb."""
+    """The game's own level, with the hero beside the bomb."""
 
     def __init__(self, kind=Platformer):
         self.scene = kind(seed=1)
@@ -44,7 +46,7 @@ class Cave:
         raise AssertionError(f"not within {most} steps; the bomb is {self.bomb.phase} at {self.bomb.place}")
 
     def blow(self):
-        """Throw the bomb from a place where it reaches the wall, and wait until all rubble sleeps."""
+        """Throw the bomb from a position from which it reaches the wall, and wait until all rubble sleeps."""
         self.run("", 2)
         right = self.wall.left + self.wall.size[0]
         self.until(lambda: self.scene.hero.character.position[0] < right + 62, "left")
@@ -55,7 +57,7 @@ class Cave:
 
 
 class Over:
-    """Source of input that runs to a place, and jumps over obstacles."""
+    """Source of input that runs to a position and jumps over obstacles."""
 
     held = 0
 

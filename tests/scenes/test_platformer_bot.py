@@ -1,4 +1,6 @@
-"""The scripted player goes through the whole level; one digest however it is run; each declared effect matters."""
+"""The platformer's bot completes the level, its digest is the same however it is run, and each
+declared effect matters.
+"""
 
 import copy
 
@@ -18,7 +20,7 @@ SHORT = 1900  # steps: past the first belt, whose crate is thrown through a plan
 
 
 def run(frames, draws=False, effects=None, **settings):
-    """A scene that its bot has played for so many steps."""
+    """Return a scene after its bot has played it for some frames. draws: True draws every seventh frame."""
     kind = Platformer if effects is None else type("Other", (Platformer,), {"effects": effects})
     scene = kind(**({"seed": 1} | settings))
     session, canvas = Session(scene, BotSource()), Canvas()

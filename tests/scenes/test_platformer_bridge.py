@@ -1,4 +1,4 @@
-"""The rope bridge: he jumps up through it, stands, walks its curve and drops through; its picture is its shape."""
+"""The rope bridge: the hero jumps up through it, stands, walks its curve and drops; its picture equals its shape."""
 
 from game.run.session import Session
 from game.run.sources import IdleSource

@@ -1,4 +1,4 @@
-"""The camera: it looks ahead, does not follow every hop, peeks when asked, and shows nothing outside its zone."""
+"""The camera looks ahead, does not follow every hop, looks up or down on request, and stays in its zone."""
 
 import pytest
 
@@ -25,7 +25,7 @@ def middle(scene):
 
 
 def flat(scene, x=44 * 16, bottom=320):
-    """Place the hero on the flat of the meadow, and remove the enemies."""
+    """Place the hero on level ground in the meadow, and remove the enemies."""
     for enemy in list(scene.things.enemies.values()):
         scene.things.remove(enemy)
     scene.hero.place((x, bottom - HEIGHT / 2))

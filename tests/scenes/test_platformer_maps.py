@@ -1,4 +1,4 @@
-"""Maps with a mistake: file, place, reason. And maps that are right: a copy elsewhere, a changed one, a bare one."""
+"""Levels with a mistake give an error with file, position and reason; correct ones work: copied, changed or minimal."""
 
 import json
 import os
@@ -18,7 +18,7 @@ OWN = json.loads((LEVELS / "platformer.tmj").read_text(encoding="utf-8"))
 
 
 def small():
-    """A level of 30 x 17 tiles: a floor, a start and a goal, and one walker."""
+    """Return a level of 30 x 17 tiles with a floor, a start, a goal and one walking enemy."""
     row = [0] * 30
     solid = row * 15 + [1] * 30 + [1] * 30
     objects = [

@@ -1,4 +1,4 @@
-"""Each move of the platformer's hero, on a few tiles, and what he pushes, rides and meets there."""
+"""Each move of the platformer's hero on a few tiles, and the objects that it pushes, rides or meets."""
 
 import pytest
 
@@ -146,7 +146,7 @@ def test_planks_are_open_from_below_and_by_down_and_jump():
 
 
 def test_feet_that_are_nearly_up_through_a_plank_are_helped_up():
-    """A jump that is 1 to 12 px short at its highest point still ends on the plank."""
+    """A jump that is 1 to 12 px too low at its highest point still ends on the plank."""
     tall = ".......\n.......\n..---..\n" + ".......\n" * 6 + "#######\n"
     reached = {}
     for short in (3, 30):

@@ -1,4 +1,4 @@
-"""Crates that lie in the platformer's level at the start sleep after one step; those that hang in the air fall."""
+"""Crates that rest in the platformer's level at the start sleep after one step; those in the air fall."""
 
 import numpy as np
 import pytest
@@ -10,9 +10,10 @@ SECOND = 60  # steps
 
 
 def after(steps, seed=1, lift=0.0, only=None):
-    """Lift some bodies of the level, and play it for some steps.
+    """Lift some bodies of the level by `lift` [px], and play it for some steps.
 
-    Return (ids of the dynamic bodies, (n, 2) places [px] before and after the steps, (n,) whether awake).
+    Returns (ids of the dynamic bodies, (n, 2) positions [px] before and after the steps, (n,) whether awake). only: ids
+    of the bodies to lift, None for all.
     """
     scene = Platformer(seed=seed)
     bodies = scene.world.bodies
@@ -34,7 +35,7 @@ def places(bodies):
 
 
 def lying(seed):
-    """Return the ids of the bodies that are still in place after a second; the others are on lifts and belts."""
+    """Return the ids of the bodies that have not moved after a second; the others are on lifts and belts."""
     ids, first, then, _ = after(SECOND, seed)
     return ids[np.hypot(*(then - first).T) < 0.5]
 

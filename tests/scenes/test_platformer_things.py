@@ -1,4 +1,4 @@
-"""Things and enemies of the platformer: ladders, belts, crumbling stones, springs, lifts and the three enemies."""
+"""Objects and enemies of the platformer: ladders, belts, crumbling stones, springs, lifts and the three enemies."""
 
 import pytest
 
@@ -13,7 +13,7 @@ SHAFT = "........\n" * 3 + "###-####\n" + "........\n" * 6 + "########\n"
 
 
 def ladder_stage():
-    """A ladder from the floor at row 10 up through a plank at row 3."""
+    """Return a stage with a ladder from the floor at row 10 up through a plank at row 3, and the hero at its foot."""
     stage = Stage(SHAFT, 1, [thing("ladder", 48, 48, 16, 112)])
     stage.hero.place((56, 160 - HEIGHT / 2))
     stage.run("", 3)

@@ -1,4 +1,4 @@
-"""lab/pyramid's scatter: its errors are those that the lab itself judges by, and what was tried is remembered."""
+"""The scatter plot of lab/pyramid: its errors are those that the lab judges by, and tried settings are kept."""
 
 from itertools import combinations
 

@@ -1,4 +1,4 @@
-"""The listing holds every scene of the folder, and every scene is complete."""
+"""The list of scenes contains every scene of the folder, and every scene is complete."""
 
 import ast
 from pathlib import Path
@@ -12,7 +12,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "scenes"
 
 
 def scene_files():
-    """module:Class of every class in scenes/ that is given a `name`."""
+    """Return the set of "module:Class" of every scene class in scenes/ that has a `name`."""
     found = set()
     for path in sorted(FOLDER.rglob("*.py")):
         module = ".".join(path.relative_to(FOLDER.parent).with_suffix("").parts).removesuffix(".__init__")

@@ -1,4 +1,4 @@
-"""Every scene: its bot reaches its goals, what must not matter does not, and what a player may turn does something."""
+"""Every scene: its bot reaches its goals, irrelevant conditions do not change it, and every setting has an effect."""
 
 import copy
 from contextlib import closing
@@ -57,8 +57,8 @@ def play(scene, frames, source=None):
 def played_and_replayed(name, frames, path):
     """Play the scene by its bot, and again from its recording. Return both runs.
 
-    The second is drawn with every overlay for 20 s, asks all broad phases in each step, and switches them. Raises
-    ReplayDiverged with the first frame that differs, StrategiesDisagree with the pairs.
+    The second run is drawn with every overlay for 20 s, compares all broad phases in each step, and switches them.
+    Raises ReplayDiverged with the first frame that differs, StrategiesDisagree with the pairs.
     """
     scene = make_scene(name, FEW)
     run = Run("the scene", scene, recorder=Recorder(scene, bot=True))
@@ -79,7 +79,10 @@ def played_and_replayed(name, frames, path):
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", SCENES)
 def test_one_digest_however_it_is_run_for_half_a_second(name, tmp_path):
-    """Cover every scene in the README's command: on no list of slow tests (tests/slow.py, NEVER)."""
+    """A scene has the same digests played and replayed for half a second.
+
+    This test covers every scene in the README's command, so it is never on a list of slow tests (tests/slow.py, NEVER).
+    """
     played_and_replayed(name, SHORT_FRAMES, tmp_path / "recording.json")
 
 
@@ -126,7 +129,7 @@ def test_restart_goes_back_to_the_start(name):
 
 
 def changed(name, changes):
-    """Return two runs of the scene with settings changed mid-game: under its own broad phase, and asking all."""
+    """Return two runs of the scene with settings changed mid-game: under its own broad phase, and comparing all."""
     return [
         Run(f"changed{label}", make_scene(name, True, asks_all=asks_all), Changing(changes))
         for label, asks_all in (("", False), (" and asking all broad phases", True))
@@ -151,7 +154,7 @@ def test_the_narrow_phase_switches_mid_game(name):
 
 
 def worlds_differ(one, other, frames):
-    """Return True if within so many frames something in their worlds is not the same."""
+    """Return whether the worlds of two runs differ within a number of frames."""
     for _ in range(frames):
         if [world.digest() for world in one.scene.worlds] != [world.digest() for world in other.scene.worlds]:
             return True

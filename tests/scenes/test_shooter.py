@@ -1,4 +1,4 @@
-"""The shooter's rules: exact shapes decide, sides never meet their own, core against hull, bombs, grazes, pick-ups."""
+"""Rules of the shooter: exact shapes decide hits, no side hits its own, core and hull, bombs, grazes, pick-ups."""
 
 import numpy as np
 import pytest
@@ -30,16 +30,16 @@ HULL_HURTS = (("slider:hurts", 1),)
 
 
 def hull_sky(**chosen):
-    """A sky in which the hull is what a hit hurts."""
+    """Return a sky in which hits of the plane's hull count, not only those of its core."""
     sky = Sky(**chosen)
     sky.step(1, changes=HULL_HURTS)
     return sky
 
 
 def offsets(shares):
-    """Return the offset (dx, dy) of a dart from the plane at which their boxes overlap most while pixels are shared.
+    """Return the offset (dx, dy) of a dart from the plane at which their boxes overlap most.
 
-    shares: False for the offset at which no pixel is shared.
+    shares: True requires shared pixels, False none.
     """
     planes = load_atlas("planes")
     mine, other = planes.mask("player"), planes.mask("dart_0")
@@ -56,7 +56,7 @@ def offsets(shares):
 
 
 def share_pixels(a, b, dx, dy):
-    """Shared pixels of two masks, b moved by whole pixels: laid on one large grid."""
+    """Return the number of pixels that two masks share, b moved by whole pixels, counted on a large grid."""
     grids = []
     for mask, x, y in ((a, 0, 0), (b, dx, dy)):
         grid = np.zeros((128, 128), bool)
@@ -322,7 +322,10 @@ def test_sides_never_pair_with_their_own():
 
 @pytest.mark.skipif(not physics.JIT, reason="who shoots back comes late: too long without compiled kernels")
 def test_nothing_that_is_fired_slips_through_what_it_may_hit():
-    """So the game does without continuous: a shot is longer than its way in a step, and so are bullet and core."""
+    """No shot or bullet passes through its target without continuous collision.
+
+    A shot is longer than its path in a step, and so are bullet and core together.
+    """
     scene = Shooter(seed=1)
     session = Session(scene, BotSource())
     sizes = np.array([mask_of(look).size for look in NAMES])

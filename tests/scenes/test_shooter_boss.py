@@ -1,4 +1,6 @@
-"""Leaders: a warning, phases with health and timers, the sky cleared between them, 1,500 bullets, one digest."""
+"""Bosses of the shooter: a warning, phases with health and timers, a cleared sky between them, 1,500 bullets, one
+digest.
+"""
 
 import numpy as np
 import pytest
@@ -18,7 +20,7 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="takes too long without
 
 
 def boss_sky(path):
-    """A stage of its boss alone, at the moment in which the fight begins; nothing costs a life."""
+    """Return a sky of a boss stage at the start of the fight; the plane is invincible."""
     sky = Sky(quiet=False, level=path)
     sky.step(1, changes=[("assist:invincible", True)])
     sky.until(lambda: sky.scene.fleet.leader is not None and sky.scene.fleet.leader.mode == "fight", 900)

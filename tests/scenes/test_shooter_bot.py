@@ -1,4 +1,4 @@
-"""The bot plays: a minute on any seed, the whole stage on most; copies go on alike."""
+"""The shooter's bot survives a minute with any seed and the whole stage with most; copied games continue equally."""
 
 import copy
 

@@ -1,4 +1,6 @@
-"""The end of a game: lives, the countdown, continues and their cost, the bonuses, the result; and a restart."""
+"""The end of a game of the shooter: lives, the countdown, continues and their cost, bonuses,
+the result, and a restart.
+"""
 
 import pytest
 
@@ -12,7 +14,7 @@ from tests.scenes.shooter_stages import Sky, boss_stage
 
 
 def lose_all(sky):
-    """Lose all lives, until the countdown runs."""
+    """Lose all lives, until the countdown is shown."""
 
     def step():
         scene = sky.scene

@@ -1,4 +1,4 @@
-"""The shooter's picture: text keeps clear of text, bullets can be read, palettes and flashes as the player wants."""
+"""The shooter's picture: texts do not overlap, bullets are visible, palettes and flashes follow the settings."""
 
 from itertools import combinations
 
@@ -20,7 +20,7 @@ from tests.scenes.shooter_stages import Sky, boss_stage
 
 
 def picture(scene, alpha=1.0):
-    """The canvas that a scene draws."""
+    """Return the canvas on which a scene is drawn."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     scene.draw(canvas, alpha)
@@ -28,7 +28,7 @@ def picture(scene, alpha=1.0):
 
 
 def check_text(scene):
-    """Assert that no text leaves the picture or overlaps other text."""
+    """Assert that no text leaves the picture or overlaps other text. Return the texts."""
     canvas = picture(scene)
     words = [text for _, text in canvas.boxes]
     for rect, text in canvas.boxes:
@@ -79,7 +79,7 @@ def test_texts_of_the_start_the_countdown_and_the_end():
 
 
 def luminance(color):
-    """Relative luminance of WCAG 2.2."""
+    """Return the relative luminance of an RGB colour (WCAG 2.2)."""
     channels = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in color[:3]]
     return 0.2126 * channels[0] + 0.7152 * channels[1] + 0.0722 * channels[2]
 

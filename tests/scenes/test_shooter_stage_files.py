@@ -1,4 +1,4 @@
-"""Stage files: the game's own is whole, and every mistake in one names the file, the place and the reason."""
+"""Stage files: the game's own is valid, and every mistake gives an error with the file, the position and the reason."""
 
 import pytest
 
@@ -55,7 +55,10 @@ MISTAKES = [
 
 
 def broken(path, way, value):
-    """Write the game's stage with one place changed."""
+    """Write the game's stage with one value changed, and return its path.
+
+    way: keys and indices to the value. value: None deletes it.
+    """
     data = own_stage()
     at = data
     for step in way[:-1]:

@@ -1,4 +1,4 @@
-"""Heavy planes break: no pixel is lost but in cracks; pieces tumble, strike small planes, and come down."""
+"""Heavy planes break up: pixels are lost only in cracks, and the pieces tumble, hit small planes and fall."""
 
 from math import pi
 
@@ -45,7 +45,7 @@ def test_pieces_fly_apart_turn_and_come_down():
 
 
 def test_the_air_takes_them_along_with_the_ground():
-    """Drag and wind: at last a piece drifts as the ground does."""
+    """Drag and wind act on the pieces, which finally drift with the ground."""
     sky, _ = struck_down(y=20.0)
     scene = sky.scene
     for piece in scene.wreckage.pieces.values():

@@ -1,4 +1,4 @@
-"""Texts are placed in the part of the canvas that shows the game: no panel beside it and no title line covers them."""
+"""Texts are in the part of the canvas that shows the game; no side panel and no title line covers them."""
 
 import pytest
 
@@ -21,7 +21,7 @@ SHOOTERS = ("shooter", "lab/disagreement")
 
 
 def drawn(scene):
-    """Return the canvas of a scene with its title line, and each (rectangle, text) that was drawn on it."""
+    """Return (canvas of a scene with its title line, list of (rectangle, text) of each text drawn on it)."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     with Reader() as reader:
@@ -43,7 +43,7 @@ def test_a_scene_covers_none_of_its_own_texts(name):
 
 
 def begin(scene, mode):
-    """Put a shooter into a mode of its stage or of its end, with the largest numbers."""
+    """Put a shooter into a mode of its stage or of its end, with the largest numbers on the screen."""
     scene.score.points, scene.score.chain, scene.score.best_chain, scene.score.grazes = 12_345_670, 999, 999, 9999
     scene.score.kills[next(iter(scene.score.kills))] = 999
     scene.plane.power = scene.plane.bombs = scene.plane.lives = 5

@@ -1,4 +1,4 @@
-"""Stills: every picture of docs/pictures has its entry, and is taken of a screen on which everything is measured."""
+"""Stills: every picture of docs/pictures has an entry, and is taken of a screen with complete measurements."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""--strict: no scene breaks an invariant under its bot, and a recording says which is the first that does."""
+"""--strict: no scene breaks an invariant under its bot, and a recording names the first invariant that is broken."""
 
 import json
 
@@ -19,7 +19,7 @@ SHORT, LONG = (240, 3600) if physics.JIT else (20, 200)  # frames
 
 
 def play(name, frames):
-    """Play a scene by its bot, and return its monitor. Raises StrictFailure for a broken invariant."""
+    """Play a scene by its bot and return its monitor. Raises StrictFailure if an invariant is broken."""
     session = Session(make_scene(name, FEW), BotSource(), strict=True)
     for _ in range(frames):
         session.step()
@@ -42,7 +42,7 @@ def test_no_scene_breaks_an_invariant_in_a_minute(name):
 
 @pytest.fixture
 def pumped(monkeypatch):
-    """Make World.step speed up the last body of a world in each step from the 30th on."""
+    """Patch World.step to speed up the last body of a world in each step from the 30th on."""
     made = physics.World.step
 
     def step(world, dt=None):

@@ -1,4 +1,4 @@
-"""Compiled forms take over at random steps: the digests are those of the compiled scene, after every frame."""
+"""Plain kernels are replaced by compiled ones at random steps: the digests equal those of the compiled scene."""
 
 import math
 
@@ -43,7 +43,9 @@ def arena(name):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_plain_twin_that_differs_is_seen(seed, monkeypatch):
-    """By one unit in the last place of a velocity, in one of the kernels, until its compiled form takes over."""
+    """A plain kernel whose velocity is wrong by one unit in the last place is detected, until its compiled form
+    replaces it.
+    """
     twin = Kernel.plain.fget
     wrong = {id(each) for each in integrate.POSITIONS.values()}
 

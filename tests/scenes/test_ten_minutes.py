@@ -1,6 +1,6 @@
-"""Ten minutes of each game by its bot, one game after another as it ends: the memory of the process stays flat.
+"""The memory of the process stays constant over ten minutes of each game by its bot, one game after another.
 
-In a process of its own, headless as `main.py --headless` runs it, so that nothing but the game is counted.
+The games run in a process of their own, as with `main.py --headless`, so that only the game is counted.
 """
 
 import json

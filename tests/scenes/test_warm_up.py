@@ -1,6 +1,6 @@
-"""After a scene's warm-up nothing is left to compile: no player waits in the middle of a game.
+"""After a scene's warm-up no kernel is left to compile, so no player waits during a game.
 
-Each scene in a process of its own, since another scene's kernels would hide what this one's warm-up forgot.
+Each scene runs in its own process, because another scene's kernels would hide those that this warm-up lacks.
 """
 
 import json
@@ -107,7 +107,10 @@ print(json.dumps([len(chosen), totals.compiled, totals.loaded]))
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("name", SCENES)
 def test_a_second_process_compiles_nothing(name):
-    """With every solver, tier and broad phase that the scene offers, whatever the order in which sets are hashed."""
+    """A second process compiles nothing, with every solver, tier and broad phase that the scene offers.
+
+    Two hash seeds are used, because the order of sets must not matter.
+    """
     found = []
     for seed in ("3", "4"):
         run = subprocess.run(
@@ -126,7 +129,7 @@ def test_a_second_process_compiles_nothing(name):
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("command", [["main.py", "--report", "FOLDER", "--quick"], ["-m", "tests.bench", "--quick"]])
 def test_a_second_report_and_a_second_benchmark_compile_nothing(command, tmp_path):
-    """Whichever of their processes would: the folder holds the same kernels afterwards."""
+    """A second report and a second benchmark compile nothing in any of their processes: the cache is unchanged."""
     from physics.jit.store import store
 
     pytest.importorskip("pymunk")  # both run it beside the physics

@@ -1,4 +1,4 @@
-"""A user's program in which every line is right: basedpyright must report none of them. It is read, not run."""
+"""A user's program in which every line is correct: basedpyright must report no error. It is checked, not run."""
 
 from collections.abc import Iterable, Sequence
 
@@ -55,7 +55,7 @@ SPRITE = PixelMask.from_surface(pygame.Surface((8, 8)), origin=PLACE)
 
 
 def shapes() -> list[Circle | Capsule | Polygon | Segment | Chain | TileGrid | PixelMask | Bounds]:
-    """Return one shape of each kind, from points of all kinds."""
+    """Return one shape of each kind, made from points of all types."""
     ball = Circle(8, PLACE)
     x: float = ball.center.x + ball.points[0].y
     corners = [(0, 0), (9, 0), (9, 9)]
@@ -73,7 +73,7 @@ def shapes() -> list[Circle | Capsule | Polygon | Segment | Chain | TileGrid | P
 
 
 def bodies(world: World, shape: Polygon) -> Body:
-    """Add bodies with positions of all kinds, change them, and return the last."""
+    """Add bodies with positions of all types, change them, and return the last one."""
     world.add_body(shape, position=PLACE, kind="static")
     world.add_body(shape, position=RECT.center, kind="kinematic", velocity=[1, 2])
     world.add_body(shape, SPRITE, position=EXACT.topleft, continuous="toi", tier=None, user={"name": "crate"})
@@ -129,7 +129,7 @@ def worlds() -> None:
 
 
 def queries(world: World, shape: Circle) -> list[Body]:
-    """Query a world with points, rectangles and poses of all kinds."""
+    """Make queries with points, rectangles and poses of all types."""
     hit: RayHit | None = world.ray_cast(PLACE, (0, 500), filter=Filter(1, 2), sensors=True)
     found = world.ray_cast((0, 0), HERE)
     fractions: NDArray[np.float64] = world.ray_casts([(0, 0)], [HERE])["fraction"]
@@ -152,7 +152,7 @@ def queries(world: World, shape: Circle) -> list[Body]:
 
 
 def arrays(world: World, awake: Sequence[int], handles: Iterable[Body]) -> float:
-    """Read and write the columns of a step's arrays."""
+    """Read and write columns of a step's arrays."""
     table = world.bodies
     table["vx"] += 1.0
     table["vy"][table["awake"]] = 0.0
@@ -182,7 +182,7 @@ def arrays(world: World, awake: Sequence[int], handles: Iterable[Body]) -> float
 
 
 def joints(world: World, a: Body, b: Body) -> Joint:
-    """Add joints of all kinds."""
+    """Add joints of all kinds and return one of them."""
     hinge = world.add_joint(Revolute(a, b, at=PLACE, limits=(-0.5, None), motor=Drive(2, max=1e5)))
     world.add_joint(Prismatic(a.id, None, (0, 0), axis=HERE, breaks=(1e4, None)))
     world.add_joint(Distance(a, b, PLACE, HERE, spring=Spring(2.0, 0.5)))
@@ -198,7 +198,7 @@ def joints(world: World, a: Body, b: Body) -> Joint:
 
 
 def character(world: World) -> bool:
-    """Move a character."""
+    """Move a character; return whether it is grounded and not blocked to the right."""
     hero = Character(world, Polygon.box(10, 20), PLACE, filter=Filter(1), max_slope=0.8)
     moved = hero.move(1.5, -2)
     if moved.riding is not None:
@@ -215,7 +215,7 @@ class Crate(pygame.sprite.Sprite):
         self.body = world.add_body(Polygon.box(*self.box.size), position=self.box.center, user=self)
 
     def update(self) -> None:
-        """Move the sprite to its body, and the body by a few pixels."""
+        """Move the sprite to its body, then the body by one pixel."""
         self.box.center = round(self.body.position.x), round(self.body.position.y)
         self.body.position += (1, 0)
         self.body.velocity *= 0.5
@@ -226,7 +226,7 @@ class Crate(pygame.sprite.Sprite):
 
 
 def copies(world: World, other: Body) -> None:
-    """Add bodies with words and numbers of other bodies, and from loops."""
+    """Add bodies with keywords and numbers taken from other bodies and from loops."""
     for kind in ("static", "dynamic"):
         world.add_body(Circle(3), kind=kind)
     kind = "static" if len(world) else "kinematic"

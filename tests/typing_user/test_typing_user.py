@@ -1,7 +1,6 @@
-"""A type checker on a user's program: every wrong line is reported, and no right one.
+"""A type checker reports every wrong line of a user's program, and no correct one.
 
-basedpyright belongs to the extra `dev`. Without it this test is skipped; `.ci/run` runs it after it has installed
-the extra.
+basedpyright belongs to the extra `dev`. Without it this test is skipped; `.ci/run` runs it after installing the extra.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""A user's program in which every line with the mark is wrong: basedpyright must report each of them, and no other."""
+"""A user's program in which the marked lines are wrong: basedpyright must report all of them and no others."""
 
 import pygame
 
@@ -27,7 +27,7 @@ BALL = Circle(8)
 
 
 def words(world: World, body: Body, mask: PixelMask) -> None:
-    """Use words that do not exist."""
+    """Use keywords that do not exist."""
     world.add_body(BALL, kind="dynmic")  # wrong
     world.add_body(BALL, kind=0)  # wrong
     world.add_body(BALL, kind="Static")  # wrong
@@ -53,7 +53,7 @@ def words(world: World, body: Body, mask: PixelMask) -> None:
 
 
 def places(world: World, body: Body) -> None:
-    """Give a place as something that is no pair."""
+    """Pass positions that are not pairs."""
     world.add_body(BALL, position=RECT)  # wrong
     world.add_body(BALL, position=(1, 2, 3))  # wrong
     world.add_body(BALL, position=5)  # wrong
@@ -78,7 +78,7 @@ def places(world: World, body: Body) -> None:
 
 
 def shapes(world: World, body: Body) -> None:
-    """Give a shape as something that is none, or its numbers in a wrong order."""
+    """Pass values that are no shapes, or shape arguments in the wrong order."""
     world.add_body(SURFACE)  # wrong
     world.add_body(RECT)  # wrong
     world.add_body([BALL])  # wrong
@@ -99,7 +99,7 @@ def shapes(world: World, body: Body) -> None:
 
 
 def names(world: World, body: Body) -> None:
-    """Use names of other engines."""
+    """Use argument names of other engines."""
     world.add_body(BALL, friction=0.5)  # wrong
     world.add_body(BALL, pos=(1, 2))  # wrong
     world.add_body(BALL, material=0.5)  # wrong
@@ -135,7 +135,7 @@ def columns(world: World) -> None:
 
 
 def joints(world: World, a: Body, b: Body) -> None:
-    """Give a joint wrong parts."""
+    """Pass wrong arguments to joints."""
     world.add_joint(Revolute)  # wrong
     world.add_joint(Revolute(a, b))  # wrong
     world.add_joint(Revolute(a, b, anchor=(0, 0)))  # wrong

@@ -1,4 +1,4 @@
-"""The advice: only what was measured, only within the error, and only where it is sure."""
+"""Advice uses measured settings only, only those within the error, and only if it is certain."""
 
 import json
 
@@ -22,7 +22,7 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps")
 
 
 class Table(Moment):
-    """Moment whose settings have the costs and errors of a table, so that the right choice is known beforehand."""
+    """Moment whose settings have costs and errors from a table, so that the right advice is known."""
 
     table: dict = {}
 

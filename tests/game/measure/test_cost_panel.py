@@ -1,4 +1,4 @@
-"""The plot of what accuracy costs: reached, read and worked as a player does."""
+"""The plot of accuracy and cost: opened, read and used as by a player."""
 
 from time import monotonic
 
@@ -26,7 +26,7 @@ from tests.game.test_lab_card import Silent
 
 
 def words(frame):
-    """All text on a frame."""
+    """Return all text on a frame, joined by spaces."""
     return " ".join(text for _, text in frame.boxes)
 
 
@@ -40,7 +40,7 @@ def driver(drive):
 
 
 def look(driver, known):
-    """Wait until known(survey) is true. Return the frame that shows the survey then."""
+    """Wait until known(survey) is true, at most 120 s. Return the frame that then shows the survey."""
     surveyor, end = driver.screen.measuring.surveyor, monotonic() + 120.0
     while not known(surveyor.survey) and monotonic() < end:
         surveyor.wait(0.1)
@@ -49,7 +49,10 @@ def look(driver, known):
 
 
 def test_a_strangers_path_from_the_title_to_what_accuracy_costs_in_the_shooter(driver):
-    """At most four keys; then the plot is up, and its finding stands there whole, at every size of the window."""
+    """A new player gets from the title to the plot of costs in the shooter with at most four keys.
+
+    The plot's finding is completely visible at every size of the window.
+    """
     pressed = []
 
     def press(key):
@@ -170,7 +173,7 @@ def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
 
 
 def play_with_a_survey():
-    """Return the shooter with the plot open, and with a result for every setting."""
+    """Return the shooter's screen with the plot open and a result for every setting."""
     play = Play(Shooter(seed=1), DeviceSource(), Silent())
     for _ in range(3):
         play.step()

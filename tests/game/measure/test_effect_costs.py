@@ -1,4 +1,6 @@
-"""Costs of effects at a moment: both sides of each, counted kernels, and the table in the panel."""
+"""Costs of effects at a moment: the time with and without each, the kernels that it needs, and
+the table in the panel.
+"""
 
 import json
 import subprocess

@@ -1,4 +1,6 @@
-"""A scene's choice of effects beside all and the fewest: time, kernels, start, bytes, and the bars that show them."""
+"""A scene's effects compared with all effects and the fewest: time, kernels, start, bytes, and
+the bars that show them.
+"""
 
 import json
 
@@ -42,7 +44,7 @@ MS = 1e-3
 
 
 def totals_with(**times):
-    """Totals with these least and median times of a step [ms]."""
+    """Return {name: EffectTotal} from the (least, median) time of a step [ms] for each name."""
     return {
         name: EffectTotal(number, Cost(least * MS, middle * MS, middle * MS, RUNS, 60), 10 * number, MS, 1000 * number)
         for number, (name, (least, middle)) in enumerate(times.items(), 3)

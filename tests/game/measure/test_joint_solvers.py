@@ -1,4 +1,4 @@
-"""The plot of a scene with joints: both solvers of joints over their substeps, with the widest gap of a joint."""
+"""The plot of a scene with joints: both joint solvers over their substeps, with the widest gap of a joint."""
 
 import pygame
 import pytest
@@ -27,7 +27,9 @@ EFFECTS = Effects(response=True, gravity=True, rotation=True, stacking=True, joi
 
 
 def swinging(tier: JointSolverName = "auto", solver: SolverName = "soft_step"):
-    """A chain with a ball of a hundred links, in mid-swing."""
+    """Return a world with a swinging chain that ends in a ball of a hundred times the mass of a link. tier: joint
+    solver.
+    """
     world, before = World(EFFECTS, solver=solver, substeps=4), None
     world.joint_solver = tier
     for k in range(8):
@@ -98,7 +100,10 @@ def test_no_scene_is_changed_to_another_solver_of_joints_and_none_is_advised():
 
 
 def surveyed(settings, survey=None):
-    """A survey of settings, each dearer than the one before; the gaps of direct joints are narrow."""
+    """Return a survey of settings with increasing cost, in which the direct joint solver has small gaps.
+
+    survey: survey to fill; None for a new one.
+    """
     survey = survey or Survey()
     survey.kinds, survey.planned, survey.moments = ("overlap", "way", "joints"), len(settings), 1
     for number, setting in enumerate(settings):

@@ -1,4 +1,4 @@
-"""A scene's measurement requests run outside its frame: five runs of each, once, cached by name."""
+"""A scene's measurement requests run outside its frames: each run is measured five times, once, and cached by name."""
 
 import json
 
@@ -32,7 +32,7 @@ def run_of(count, **more):
 
 
 class Requesting(Arena):
-    """Scene that requests the costs of the piles in `piles`. made: number of calls of its make()."""
+    """Scene that requests the costs of the piles in `piles`. made: number of times that it made a pile to measure."""
 
     piles, made = (1, 2), 0
 

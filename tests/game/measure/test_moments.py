@@ -1,4 +1,4 @@
-"""Measurements of a world: settings, ways, errors; reported through a process and without one."""
+"""Measurements of a moment of a world: settings, paths and errors, made in a separate process and directly."""
 
 import gc
 import json
@@ -28,7 +28,7 @@ def pile(substeps=4):
 
 
 def sprites(tier="pixels"):
-    """Six crosses of pixels that fly past each other."""
+    """Return a world with six pixel crosses that fly past each other. tier: collision tier of the crosses."""
     y, x = np.mgrid[0:16, 0:16] - 7.5
     cross = PixelMask((abs(x) < 3) | (abs(y) < 3))
     world = World(Effects(), BROADPHASES["sweep"]())
@@ -96,7 +96,9 @@ def test_the_way_of_a_broad_phase_is_no_other_and_fewer_substeps_are_worse():
 
 
 def test_a_fall_is_off_by_what_the_closed_form_says():
-    """Semi-implicit Euler falls g h t / 2 further than it should after t: with h a 64th that much less."""
+    """The path error of a free fall is that of semi-implicit Euler, g h t / 2, compared with a reference of a 64th of
+    h.
+    """
     world = World(Effects(response=True, gravity=True), BROADPHASES["tree"](), gravity=(0.0, 320.0))
     world.add_body(Polygon.box(4, 4))
     moment = moment_of(world)
@@ -107,7 +109,7 @@ def test_a_fall_is_off_by_what_the_closed_form_says():
 
 
 def test_verdicts_are_wrong_by_what_the_shapes_say():
-    """The tier's own world beside single calls of collide() on exact masks: another way to the same counts."""
+    """The error counts of each tier equal those of single calls of collide() on exact masks."""
     world = sprites()
     cross = world.body(0).shapes[0]
     for place in ((300.0, 300.0), (311.0, 311.0)):  # corners of their boxes overlap, and nothing else

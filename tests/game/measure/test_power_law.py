@@ -1,4 +1,6 @@
-"""Exponents by least squares on logarithms: exact on exact laws, with the standard error that numpy gives."""
+"""Exponents fitted by least squares on logarithms are exact for exact laws, and have the standard error that NumPy
+gives.
+"""
 
 import numpy as np
 import pytest

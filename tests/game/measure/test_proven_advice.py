@@ -1,4 +1,4 @@
-"""Advice holds for a whole run: it is played again with the scene's rules, and wrong advice is withdrawn."""
+"""Advice is checked by playing the whole run again under the scene's rules; wrong advice is withdrawn."""
 
 import json
 from itertools import pairwise
@@ -103,7 +103,10 @@ def test_an_advice_holds_only_if_every_repetition_and_the_slowest_steps_agree(me
 @needs_speed
 @pytest.mark.parametrize("factor, holds", ((0.5, True), (0.97, False), (1.5, False)))
 def test_an_advice_that_the_whole_run_refutes_is_withdrawn(monkeypatch, factor, holds):
-    """At the moments the tree takes half the time; over the whole run it takes this factor."""
+    """Advice that the whole run refutes is withdrawn.
+
+    At the measured moments the tree takes half the time; over the whole run it takes `factor` times the time.
+    """
     monkeypatch.setattr(Moment, "time_run", lambda self, setting, *more: 5e-4 if setting.broadphase == "tree" else 1e-3)
     monkeypatch.setattr(
         proven_advice,

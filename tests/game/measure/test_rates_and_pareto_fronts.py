@@ -1,4 +1,4 @@
-"""Intervals, Pareto fronts and ties, against what can be counted by hand."""
+"""Confidence intervals, Pareto fronts and ties, compared with values computed by hand."""
 
 from random import Random
 

@@ -1,4 +1,4 @@
-"""The counts against the reference tier are those of single calls of collide() on every pair, in the shooter."""
+"""Counts against the reference tier equal those of single calls of collide() on every pair, in the shooter."""
 
 from itertools import combinations
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of a 
 
 
 def slow_verdict(bodies, filters, tier):
-    """Ids of the pairs that meet at a tier, every pair tried."""
+    """Return the set of id pairs that collide at a tier, by a test of every pair. filters: {id: (category, mask)}."""
     shapes = {body.id: fit(body.shapes[0], tier) if body.tier else body.shapes for body in bodies}
     met = set()
     for a, b in combinations(bodies, 2):
@@ -32,7 +32,9 @@ def slow_verdict(bodies, filters, tier):
 
 @pytest.fixture(scope="module")
 def asked():
-    """(reference tier, {tier: (hits, wrong, missed)} counted slowly) after some moments of the shooter."""
+    """Return (reference tier, {tier: (hits, wrong, missed)} counted by tests of every pair) after some moments of the
+    shooter.
+    """
     scene = make_scene("shooter")
     session, reference = Session(scene, BotSource()), ReferenceTier("aabb")
     met = {tier: set() for tier in TIERS}

@@ -1,7 +1,7 @@
-"""The lab proves itself: rates that have closed forms, measured by the very code that measures sprites.
+"""Error rates that have closed forms, measured by the same code that measures sprites.
 
-The figures are ratios of areas of the sets of relative places at which two shapes touch: Minkowski sums; for turned
-shapes the kinematic formula of integral geometry, A + B + P Q / 2 pi (Santalo 1976).
+The rates are ratios of areas: the sets of relative positions at which two shapes touch are Minkowski sums. For rotated
+shapes the kinematic formula of integral geometry gives A + B + P Q / 2 pi (Santalo 1976).
 """
 
 from math import cos, hypot, pi, sin
@@ -24,7 +24,10 @@ def verdicts(shape, first, second):
 
 
 def places(half, turned, seed=1):
-    """Return poses of pairs, the second body anywhere in a square of offsets. turned: rotate both at random."""
+    """Return two arrays (COUNT, 3) of poses; the second body is anywhere in a square around the first.
+
+    half: half the side of the square. turned: True rotates both bodies at random.
+    """
     chance = np.random.default_rng(seed)
     first, second = np.zeros((COUNT, 3)), np.zeros((COUNT, 3))
     second[:, :2] = chance.uniform(-half, half, (COUNT, 2))
@@ -60,7 +63,7 @@ def test_wrong_hits_are_as_many_as_geometry_says(shape, tier, half, turned, expe
 
 
 def test_whole_pixels_miss_what_geometry_says():
-    """Squares of n pixels, the first on the grid: 1 - ((2n - 1) / 2n)^2 of the true hits are missed, 3.10 % at 32."""
+    """Pixel tests on the grid miss 1 - ((2n - 1) / 2n)^2 of the true hits of two squares of n pixels (3.10 % at 32)."""
     n = 32
     mask = PixelMask(np.ones((n, n), bool), origin=(0, 0))
     first, second = places(1.1 * n, False)
@@ -72,7 +75,7 @@ def test_whole_pixels_miss_what_geometry_says():
 
 
 def test_the_mean_chord_of_a_box_is_pi_area_over_perimeter():
-    """Random lines through a box of 2 x 1: pi A / P = 1.0472 (Cauchy, Crofton)."""
+    """Random lines through a box of 2 x 1 have a mean chord of pi A / P = 1.0472 (Cauchy, Crofton)."""
     world = World(Effects())
     world.add_body(Polygon.box(2.0, 1.0), kind="static")
     chance, chords = np.random.default_rng(3), []
@@ -89,7 +92,10 @@ def test_the_mean_chord_of_a_box_is_pi_area_over_perimeter():
 
 @pytest.mark.parametrize("width, radius, speed", ((2.0, 3.0, 40.0), (1.0, 0.5, 6.0), (10.0, 4.0, 15.0)))
 def test_who_is_only_looked_at_between_steps_misses_as_often_as_the_formula_says(width, radius, speed):
-    """max(0, 1 - (w + 2r) / (v dt)): a disc that starts anywhere within a step of a wall."""
+    """Tests between steps only miss a wall at the rate max(0, 1 - (w + 2r) / (v dt)).
+
+    The disc starts anywhere within a step of the wall.
+    """
     starts, missed = 400, 0
     wall, disc = Polygon.box(width, 100.0), Circle(radius)
     for k in range(starts):
@@ -102,7 +108,9 @@ def test_who_is_only_looked_at_between_steps_misses_as_often_as_the_formula_says
 
 
 def test_tiers_that_are_the_same_shape_never_disagree():
-    """A square sprite: its turned box, its hull, its outline and its pixels at the exact pose are one square."""
+    """For a square sprite the tiers rotated box, hull, outline and exact mask always agree, because all are the same
+    square.
+    """
     mask = PixelMask(np.ones((12, 12), bool))
     poses = poses_around(mask, mask, 3000)
     by_tier = {}

@@ -1,4 +1,4 @@
-"""A step made from outside is the world's own, and what a stage takes is the processor's time."""
+"""A step made stage by stage equals the world's own step, and stage times are processor times."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""The advice in the plot of costs, and the tuner that applies and reports it, but only if it is certain."""
+"""The advice in the plot of costs, and the tuner, which applies and reports advice only if it is certain."""
 
 import pygame
 import pytest
@@ -17,7 +17,10 @@ TREE, SWEEP, BRUTE = (HERE._replace(broadphase=name) for name in ("tree", "sweep
 
 
 def put(survey, setting, seconds, error=0.0, runs=RUNS, spread=0.02):
-    """Add a dot with these measured values to the survey."""
+    """Add measured values of a setting to the survey.
+
+    seconds: time of a step. spread: relative difference between the runs.
+    """
     dot = survey.dot(setting)
     dot.steps = 60
     for k in range(runs):
@@ -126,7 +129,7 @@ def test_the_tuner_goes_on_with_the_panel_closed_and_ends_with_the_scene(play):
 
 
 def test_what_is_read_of_a_dot_follows_what_is_reported_of_it(survey):
-    """Cost and error are worked out once, and anew after every run and every error."""
+    """Cost and error of a dot are computed once, and again after every new run or error."""
     put(survey, TREE, 1e-3, 0.5, runs=1)
     dot, kind = survey.dot(TREE), survey.kinds[0]
     before = dot.cost, dot.error(kind)

@@ -1,4 +1,4 @@
-"""Errors of tiers are wrong answers per 100 encounters: pooled over moments, with intervals, and put into sentences."""
+"""Errors of tiers are wrong answers per 100 encounters, pooled over moments, with intervals and sentences."""
 
 import csv
 import io
@@ -29,7 +29,7 @@ def error(reported, true, own=False):
 
 
 def survey_of(errors, times):
-    """A survey of {setting: errors moment by moment}, {setting: seconds a step}."""
+    """Return a survey. errors: {setting: list of errors, one for each moment}. times: {setting: seconds a step}."""
     survey = Survey()
     survey.kinds = ("verdict",)
     for setting, found in errors.items():

@@ -1,4 +1,4 @@
-"""Jobs: the same facts however they are run, and nothing that goes wrong is left out."""
+"""Jobs of a report: they give the same facts however they are run, and every failure is reported."""
 
 import pytest
 

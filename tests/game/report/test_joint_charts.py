@@ -1,4 +1,4 @@
-"""Chart 16: the same linkages in both engines, their gaps, the settings that are measured, and what is claimed."""
+"""Chart 16: equal linkages in both engines, their gaps, the measured settings, and the claims made from them."""
 
 import sys
 from math import cos, sin

@@ -1,4 +1,4 @@
-"""Chart 14: every program plays the same frames, its verdicts are right, and engines are compared at equal overlap."""
+"""Chart 14: every program plays the same frames with correct hits, and engines are compared at equal overlap."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,10 @@ def test_the_path_is_closed_and_no_step_is_longer_than_the_fastest(traffic):
 
 @pytest.mark.parametrize("name", sorted(WAYS))
 def test_a_program_finds_the_hits_of_every_frame(traffic, name):
-    """Over two rounds. Exact ways find those of a test of every pair, the others at least these."""
+    """Each program finds the hits of every frame, over two rounds.
+
+    Exact programs find the hits of a test of every pair; the others find at least these.
+    """
     program, hits = dict(programs(traffic))[name], 0
     for frame in [*range(1, FRAMES), 0, *range(1, FRAMES)]:
         program.play()
@@ -34,7 +37,10 @@ def test_a_program_finds_the_hits_of_every_frame(traffic, name):
 
 
 def test_a_world_that_tests_no_pair_is_not_measured(monkeypatch):
-    """Its sprites stand still, as in a chart whose speeds were turned in each step."""
+    """A world whose broad phase tests no pair is not measured, but raises an error.
+
+    Its sprites stand still, as when a chart reversed their speeds in each step.
+    """
 
     class Standing(Traffic):
         def __init__(self, count):
@@ -80,7 +86,7 @@ def test_the_curve_of_an_engine_holds_only_settings_that_no_other_beats():
 
 
 def test_pymunk_is_measured_over_slop_iterations_and_substeps():
-    """Ours by load and with fixed numbers of substeps."""
+    """pymunk is measured over slop, iterations and substeps; Hitbox over fixed numbers of substeps and by load."""
     pytest.importorskip("pymunk")
     rows = peers.measure_piles(3)
     settings = {(row["slop"], row["iterations"], row["substeps"]) for row in rows if row["series"] == "pymunk"}

@@ -1,4 +1,6 @@
-"""A report from the command line: kept job by job, gone on with, refused where it cannot be, and one whole page."""
+"""A report from the command line: stored job by job, resumed, refused with a reason, and
+written as one complete page.
+"""
 
 import csv
 import json
@@ -27,7 +29,7 @@ REGISTRY = Registry(SCENES)
 
 
 def small(jobs):
-    """A report of one chart."""
+    """Return the charts of a report: a single chart with these jobs."""
     panel = Panel("of all", Axis("n", value("n")), Axis("us", time("cost")))
     return (Chart(1, "fall", "Falling <b>", "How long?", "none & all", (panel,), lambda scope: list(jobs)),)
 
@@ -46,7 +48,7 @@ def report(*arguments):
 
 
 class Reader(HTMLParser):
-    """References of a page to other files, and its ids."""
+    """HTML parser that collects the references of a page to other files, and the ids of its elements."""
 
     def __init__(self):
         super().__init__()
@@ -113,7 +115,10 @@ def test_the_answer_is_what_the_rows_say():
 
 
 def test_nothing_is_wider_than_a_phone():
-    """400 px less the margins leave 356: no fixed width beyond it, words break, wide tables scroll by themselves."""
+    """Nothing on the page is wider than a phone of 400 px, less the margins 356 px.
+
+    No fixed width is larger, words break, and wide tables scroll by themselves.
+    """
     style = PAGE.read_text().split("</style>")[0]
     for rule in re.findall(r"\{([^{}]*)\}", style):
         for name, text in re.findall(r"([a-z-]+):\s*([^;]+)", rule):

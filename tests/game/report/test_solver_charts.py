@@ -1,4 +1,4 @@
-"""Charts 4 and 9: solvers put together otherwise, piles to try them on, and poses that are rounded."""
+"""Charts 4 and 9: solvers with other combinations of methods, piles to compare them, and rounded poses."""
 
 import numpy as np
 import pytest

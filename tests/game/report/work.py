@@ -1,4 +1,4 @@
-"""Jobs of the tests: what a report's jobs do in earnest, in milliseconds."""
+"""Jobs for tests of the report, which do the work of real jobs in milliseconds."""
 
 import os
 import time
@@ -19,12 +19,14 @@ def fall(bodies: int):
 
 
 def fail():
-    """Raise an error, as a job does that cannot measure."""
+    """Raise an error, as a job that cannot measure does."""
     raise ValueError("nothing can be measured here")
 
 
 def die(path: str, times: int):
-    """End the process as a crash does, so many times."""
+    """End the process abruptly in the first `times` calls, as a crash does; then return a row.
+    path: folder for marks.
+    """
     marks = Path(path)
     count = len(list(marks.iterdir()))
     if count < times:
@@ -34,7 +36,7 @@ def die(path: str, times: int):
 
 
 def wait(path: str):
-    """Create a file that shows that the job was run, and wait 0.05 s."""
+    """Create a file that shows that the job ran, and wait 0.05 s."""
     Path(path).touch()
     time.sleep(0.05)
     return [{"series": "s", "label": path, "n": 1}]
