@@ -1,7 +1,7 @@
 """Contents of an installation: every kind of file that the game reads, one version, a licence, and hooks for tools.
 
-The long tests build a wheel and a source distribution, install the wheel beside a user's own modules of the same names,
-and run it inside that project. Its results must equal those of the checkout.
+The long tests build a wheel and a source distribution. They install the wheel beside a user's own modules of the same
+names, and run it inside that project. Its results must equal those of the checkout.
 """
 
 import json

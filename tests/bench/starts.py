@@ -2,11 +2,13 @@
 play.
 
 It runs the whole program in a process of its own, as a user starts it, under the dummy driver or on the display
-(--display). Without a scene the title is measured. Games are played by their bots; labs get no input. It prints medians
-over the runs: seconds from the start of the process to the first picture, and steps and pictures in each of the first
-seconds. It also prints milliseconds of a frame (p50, p99, longest) without the wait for the next, the number of kernels
-compiled in the program itself, and seconds until all called kernels run compiled. --first starts each run with an empty
-cache.
+(--display). Without a scene the title is measured. Games are played by their bots; labs get no input. --first starts
+each run with an empty cache.
+
+It prints medians over the runs: seconds from the start of the process to the first picture, and steps and pictures in
+each of the first seconds. It also prints milliseconds of a frame (p50, p99, longest) without the wait for the next.
+Further figures are the number of kernels compiled in the program itself, and seconds until all called kernels run
+compiled.
 """
 
 import argparse

@@ -109,7 +109,7 @@ class Watch:
     # --- contacts and events ---------------------------------------------------------------------------------------
 
     def contacts(self):
-        """Check that candidates and contacts have existing shapes of two bodies that may collide (U10)."""
+        """Check that candidates and contacts have existing shapes of two bodies that may collide (invariant U10)."""
         world = self.world
         pairs = world.candidates
         once = len(np.unique(pairs, axis=0)) == len(pairs) and (pairs[:, 0] < pairs[:, 1]).all()

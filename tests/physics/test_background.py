@@ -1,5 +1,6 @@
-"""compile_in_background(): the program never waits for the compiler, whatever happens to its processes; digests stay
-equal.
+"""compile_in_background(): the program never waits for the compiler, whatever happens to the compiling processes.
+
+The digests stay the same.
 """
 
 import json

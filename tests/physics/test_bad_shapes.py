@@ -286,7 +286,7 @@ def test_extreme_shapes_are_weighed_met_and_dropped(name):
 
 
 def test_coincident_and_touching_shapes_have_a_unit_normal():
-    """Concentric and touching shapes have a unit normal and the analytic depth (B5, B6)."""
+    """Concentric and touching shapes have a unit normal and the analytic depth (docs/stability.md, B5, B6)."""
     for shape, depth in (
         (Circle(2.0), 4.0),
         (Capsule((-3, 0), (3, 0), 1.0), 2.0),

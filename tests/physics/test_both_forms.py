@@ -142,7 +142,7 @@ def test_closest_ends_where_no_body_is_anywhere(column, value):
 
 @kernel
 def columns_of(values, origin, buckets, columns_out, buckets_out):
-    """Write, for each value, the pixel column at which a mask would be drawn, and its bucket as an angle."""
+    """Write, for each value, the pixel column at which a mask would be drawn, and the index of its angle bucket."""
     for k in range(len(values)):
         columns_out[k] = snapped(values[k], origin)
         buckets_out[k] = bucket_at(values[k], buckets)

@@ -199,7 +199,10 @@ def test_diagonal_pixels_hang_together():
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("kind", ("static", "kinematic", "dynamic"))
 def test_nothing_is_lost_against_flooding(seed, kind):
-    """After carving, every pixel is in a fragment at its old position, in a dropped crumb, or under the tool."""
+    """After carving, every pixel is in a fragment at its old position, in a dropped crumb, or under the tool.
+
+    A crumb is a piece too small to become a fragment.
+    """
     rng = np.random.default_rng(seed)
     solid = rng.random((70, 90)) < (0.55, 0.45)[seed % 2]
     if kind == "dynamic":

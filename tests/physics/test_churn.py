@@ -1,6 +1,6 @@
 """Random changes of worlds: candidates and events equal those of an independent brute-force model after every step.
 
-Bodies are added, removed, moved and filtered. Five worlds, one per broad phase, get the same changes, and their digests
+Bodies are added, removed, moved and filtered. Five worlds, one per broad phase, get the same changes; their digests
 must be equal.
 """
 

@@ -1,4 +1,6 @@
-"""Distance and depth, checked by certificates instead of golden values, and for agreement with collide (U10)."""
+"""Distance and depth, checked by certificates instead of golden values, and for agreement with
+collide (invariant U10).
+"""
 
 import math
 from itertools import pairwise
@@ -69,7 +71,9 @@ def check_certificates(a, b, room):
 
 
 def fuzz(seed, pairs, slimmest):
-    """Check random pairs (C13). Return (share of overlaps, numbers of rounds of the pairs that do not overlap)."""
+    """Check random pairs (docs/stability.md, C13). Return (share of overlaps, numbers of rounds of the pairs that do
+    not overlap).
+    """
     rng, room, hits, rounds = np.random.default_rng(seed), new_gap_workspace(), 0, []
     for _ in range(pairs):
         a, b = (
@@ -99,7 +103,9 @@ def test_a_hundred_thousand_random_hulls_keep_their_certificates():
 
 @pytest.mark.parametrize("half", [1.6e-3, 2e-4, 1e-5])
 def test_point_beyond_the_short_edge_of_a_plank(half):
-    """A point beyond the short edge of a plank is not an overlap: no squared length has an absolute tolerance (C1)."""
+    """A point beyond the short edge of a plank is not an overlap: no squared length has an absolute tolerance
+    (docs/stability.md, C1).
+    """
     plank = np.array([(-0.5, -half), (0.5, -half), (0.5, half), (-0.5, half)])
     found, normal, _, _ = gap_of(plank, np.array([(0.505, 0.0)]))
     assert found == pytest.approx(0.005, abs=1e-15) and normal.tolist() == [1.0, 0.0]
@@ -108,7 +114,9 @@ def test_point_beyond_the_short_edge_of_a_plank(half):
 @pytest.mark.parametrize("exponent", range(-15, 0))
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_small_gaps_and_overlaps_keep_sign_and_normal(exponent, sign):
-    """Gaps and overlaps down to 1e-15 have the face's unit normal and are exact to 1e-12 of the size (C3, C9)."""
+    """Gaps and overlaps down to 1e-15 have the face's unit normal and are exact to 1e-12 of the size
+    (docs/stability.md, C3, C9).
+    """
     gap = sign * 10.0**exponent
     box, disc = Polygon.box(2, 2), Circle(1.0)
     for a, pose_a, b, pose_b, normal in (
@@ -135,8 +143,8 @@ def test_signed_distance_is_monotone_through_touching():
 
 
 def test_squares_overlap_alike_from_every_start():
-    """Two overlapping squares have depth 0.1 and normal (0, 1) from every start corner and
-    every order of corners (C4).
+    """Two overlapping squares have depth 0.1 and normal (0, 1) from every start corner and every order of corners
+    (docs/stability.md, C4).
     """
     square = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     for roll in range(4):
@@ -158,7 +166,9 @@ def test_squares_overlap_alike_from_every_start():
     ],
 )
 def test_identical_shapes_at_one_place(shape, depth):
-    """Two identical shapes at one pose have their least width as depth, and a unit normal (C7, B6)."""
+    """Two identical shapes at one pose have their least width as depth, and a unit normal
+    (docs/stability.md, C7, B6).
+    """
     for pose in (ORIGIN, (3.0, -7.0, 0.7)):
         found = distance(shape, pose, shape, pose)
         assert found.distance == pytest.approx(-depth, abs=1e-12) and abs(math.hypot(*found.normal) - 1.0) < 1e-12
@@ -183,7 +193,9 @@ def test_hulls_on_one_line_and_points():
 
 
 def test_boxes_that_share_an_edge():
-    """Boxes that share an edge have distance 0, the edge's normal, and both points on the edge (C8)."""
+    """Boxes that share an edge have distance 0, the edge's normal, and both points on the edge
+    (docs/stability.md, C8).
+    """
     box = Polygon.box(1, 1)
     found = distance(box, (0.5, 0.5, 0.0), box, (1.5, 0.5, 0.0))
     assert abs(found.distance) <= 1e-12 and found.normal == (1.0, 0.0)
@@ -192,7 +204,9 @@ def test_boxes_that_share_an_edge():
 
 @pytest.mark.parametrize("edge", [84.0, 500.0])
 def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
-    """The two reported points stay on long shapes: an edge of 84 at a depth of 0.05, and a ratio of 1e4 : 1 (C10)."""
+    """The two reported points stay on long shapes: an edge of 84 at a depth of 0.05, and a ratio of 1e4 : 1
+    (docs/stability.md, C10).
+    """
     slab, box = Polygon.box(edge, 1.0), Polygon.box(2.0, 2.0)
     for x in np.linspace(-0.45 * edge, 0.45 * edge, 13):
         found = distance(slab, ORIGIN, box, (float(x), -1.45, 0.0))
@@ -202,7 +216,7 @@ def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
 
 
 def test_near_parallel_planes_end_soon():
-    """The search on nearly parallel edges ends without reaching its cap (C12)."""
+    """The search on nearly parallel edges ends without reaching its cap (docs/stability.md, C12)."""
     room, rounds = new_gap_workspace(), []
     for k in range(400):
         tilt = 10.0 ** -(k % 17) * (1 if k % 2 else -1)
@@ -218,7 +232,9 @@ def test_near_parallel_planes_end_soon():
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
 def test_disc_and_box_in_closed_form(angle):
-    """A disc and a rotated box match the closed form to 1e-9: deep, at an edge, at a corner, or just touching (C14)."""
+    """A disc and a rotated box match the closed form to 1e-9: deep, at an edge, at a corner, or just touching
+    (docs/stability.md, C14).
+    """
     box, disc, radius = Polygon.box(6.0, 4.0), Circle(1.5), 1.5
     c, s = math.cos(angle), math.sin(angle)
     for u, v, gap, normal in (
@@ -238,7 +254,9 @@ def test_disc_and_box_in_closed_form(angle):
 
 
 def test_unit_box_in_a_big_one_leaves_by_the_least_translation():
-    """The depth of a unit box inside a big one is the least translation that separates them (C15)."""
+    """The depth of a unit box inside a big one is the least translation that separates them
+    (docs/stability.md, C15).
+    """
     rng = np.random.default_rng(4)
     big, small = Polygon.box(100, 100), Polygon.box(1, 1)
     assert distance(big, ORIGIN, small, ORIGIN).distance == pytest.approx(-50.5, abs=1e-9)

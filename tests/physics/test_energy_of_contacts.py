@@ -69,7 +69,8 @@ def test_an_eccentric_disc_keeps_its_energy_for_a_minute_and_never_gains(offset,
 def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
     """A disc in a bowl of links gains no energy.
 
-    It loses what inelastic corners take, sin²δ of the kinetic energy at each, and at most 5 % of the start.
+    It loses sin²δ of its kinetic energy at each inelastic corner of angle δ, and besides at most 5 % of its start
+    energy.
     """
     world, body, height = bowl(links, radius, start, substeps=substeps)
     found = energies(world, body, height, 3600)

@@ -1,4 +1,7 @@
-"""The energy limit visits all contacts only if a set of bodies gained energy; otherwise it keeps the same reserves."""
+"""The energy limit visits all contacts only if a set of bodies gained energy.
+
+Otherwise a shorter computation must give the same velocities and the same energy reserves of the bodies.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Manifolds of every pair of rounded hulls (U2, U7, U8, U10).
+"""Manifolds of every pair of rounded hulls (invariants U2, U7, U8, U10).
 
 The reference is the origin's distance from the Minkowski difference of the hulls, computed by shapely.
 """
@@ -126,7 +126,7 @@ def test_quarter_turns_turn_the_manifold(kinds, turns):
 
 
 def test_boxes_far_away_have_the_same_manifold():
-    """Two overlapping boxes have two points of separation -0.1, also at 1e7 from the origin (B1)."""
+    """Two overlapping boxes have two points of separation -0.1, also at 1e7 from the origin (docs/stability.md, B1)."""
     box = Polygon.box(1, 1)
     for at in (0.0, 1e7):
         found = collide(box, (at, at, 0), box, (at + 0.9, at, 0))
@@ -145,7 +145,7 @@ def test_boxes_far_away_have_the_same_manifold():
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
     """Nearly parallel sides keep two points and constant features, for tilts of 1e-12 to 1e-3 and an overhang on either
-    side (B2).
+    side (docs/stability.md, B2).
     """
     thick = 2 * shape.min_half_extent
     for shift in (0.0, 3.0, -3.0):
@@ -170,7 +170,9 @@ def test_features_persist_while_a_body_slides():
 
 
 def test_centres_on_cores_have_their_documented_way_out():
-    """Shapes whose centre lies on the other's core get their documented depth and a unit normal (B5, B6)."""
+    """Shapes whose centre lies on the other's core get their documented depth and a unit normal (docs/stability.md, B5,
+    B6).
+    """
     pill = Capsule((-5, 0), (5, 0), 2)
     for at, depth in (((0, 0), -3), ((5, 0), -3), ((-5, 0), -3), ((7, 0), -1)):
         found = collide(pill, (0, 0, 0), Circle(1), (*at, 0))
@@ -187,8 +189,9 @@ def test_centres_on_cores_have_their_documented_way_out():
 
 
 def test_lines_end_to_end_touch_only_where_they_meet():
-    """Collinear segments touch only where they meet, because no axis across them separates
-    along their line (B9, B11).
+    """Collinear segments collide only where they touch (docs/stability.md, B9, B11).
+
+    The axis across the segments shows no gap along their line.
     """
     line = Segment((0, 0), (10, 0))
     for angle in (0.0, 0.3, 1.0, math.pi / 2):
@@ -205,8 +208,8 @@ def test_lines_end_to_end_touch_only_where_they_meet():
 
 
 def test_needles_never_miss_each_other():
-    """Crossing needles always collide: thin shapes at small angles, compared with exact
-    arithmetic over corners (B10).
+    """Crossing needles always collide: thin shapes at small angles, compared with exact arithmetic over corners
+    (docs/stability.md, B10).
     """
     from fractions import Fraction
 
@@ -228,7 +231,7 @@ def test_needles_never_miss_each_other():
 
 
 def test_corner_to_corner_is_classified_by_the_sign_alone():
-    """Whether corners and edges touch depends on the sign of the gap alone (B9).
+    """Whether corners and edges touch depends on the sign of the gap alone (docs/stability.md, B9).
 
     Shapes 1e-12 closer than touching still touch; shapes 1e-9 apart do not.
     """

@@ -163,7 +163,10 @@ def random_forest(seed, decades=0.0, soft=0.0):
 
 
 def system(joints):
-    """Return the Jacobian (rows, motions · 3), right-hand side, compliances and inverse masses of the taken joints."""
+    """Return (Jacobian, right-hand sides, compliances, inverse masses, velocities, row positions) of the taken joints.
+
+    The Jacobian has the shape (rows, motions · 3).
+    """
     motions = joints.motions
     columns = 3 * len(motions)
     jacobian, rhs, soft, places = [], [], [], []
@@ -221,7 +224,10 @@ def velocities(joints):
 
 
 def residuals(joints):
-    """Return (largest violation of a row, largest velocity that the impulses do not explain), relative and exact."""
+    """Return (largest violation of a row, largest velocity that the impulses do not explain), both relative.
+
+    They are computed in rational numbers.
+    """
     jacobian, rhs, soft, inverse, before, places = system(joints)
     after = [Fraction(x) for x in velocities(joints).tolist()]
     pushed, size = [Fraction(x) for x in before.tolist()], [abs(Fraction(x)) for x in before.tolist()]

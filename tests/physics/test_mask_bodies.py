@@ -34,7 +34,9 @@ def add_floor(world, kind, top=50.0, half=320):
 
 
 def drop(shape, floor, solver, angle=0.0, seconds=3.0):
-    """Drop a shape by some pixels. Return (begins, ends, step at which it fell asleep or None, the body)."""
+    """Drop a shape onto a floor. Return (number of begins, number of ends, step at which it
+    fell asleep or None, body).
+    """
     world = World(solver=solver)
     add_floor(world, floor)
     body = world.add_body(shape, position=(0.3, 20.0), angle=angle)

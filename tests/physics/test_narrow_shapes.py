@@ -1,4 +1,6 @@
-"""Contacts of circles, boxes, polygons, bounds and tiles, compared with an exact outline (U2, U7, U8, U10)."""
+"""Contacts of circles, boxes, polygons, bounds and tiles, compared with an exact outline
+(invariants U2, U7, U8, U10).
+"""
 
 import math
 

@@ -39,7 +39,10 @@ def peak_of(world, bodies, steps, before_step):
 
 
 def door(shape, speed, count, **settings):
-    """Return (world, bodies, steps, before_step, fall speed) of a door that closes on a pile and stops in the floor."""
+    """Return a scene in which a door closes on a pile and stops in the floor.
+
+    The scene is (world, bodies, steps, before_step, speed that a body may gain by falling [px/s]).
+    """
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     leaf = world.add_body(Polygon.box(16, 100), position=(0, -60 - 20 * count), kind="kinematic", velocity=(0, speed))
@@ -53,7 +56,10 @@ def door(shape, speed, count, **settings):
 
 
 def block(shape, speed, count, **settings):
-    """Return (world, bodies, steps, before_step, fall speed) of a block that pushes a row into a wall."""
+    """Return a scene in which a block pushes a row into a wall.
+
+    The scene is (world, bodies, steps, before_step, speed that a body may gain by falling [px/s]).
+    """
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     world.add_body(Polygon.box(32, 96, (0, -48)), position=(200, 100), kind="static")
@@ -67,7 +73,10 @@ def block(shape, speed, count, **settings):
 
 
 def press(shape, speed, count, **settings):
-    """Return (world, bodies, steps, before_step, fall speed) of two jaws that close on a row, without gravity."""
+    """Return a scene in which two jaws close on a row, without gravity.
+
+    The scene is (world, bodies, steps, before_step, speed that a body may gain by falling [px/s]).
+    """
     world = World(gravity=(0, 0), **settings)
     jaws = [
         world.add_body(Polygon.box(40, 200), position=(-100 * way, 0), kind="kinematic", velocity=(way * speed, 0))

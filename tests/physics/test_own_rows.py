@@ -25,7 +25,9 @@ PLACES = ("as added", "after removals", "scattered", "before the drop")
 
 
 def crowd(shapes, place):
-    """Return (world, body to change) of nine bodies with these shapes. place: index of the body to change."""
+    """Return (world, body to change) of nine bodies with these shapes. place: case of row positions, such as
+    "scattered".
+    """
     world = World(Effects.rigid_bodies())
     bodies = [
         world.add_body(*(shapes or (Circle(5.0),)), position=(60.0 * k, 7.0 * k), mass=None if shapes else 1.0)

@@ -1,4 +1,4 @@
-"""All queries of two shapes agree: overlap, depth, distance, contact and time of impact (U7, U8, U10)."""
+"""All queries of two shapes agree: overlap, depth, distance, contact and time of impact (invariants U7, U8, U10)."""
 
 import math
 
@@ -179,7 +179,9 @@ def test_impact_of_touching_shapes_is_now_when_they_approach_and_later_when_they
 @pytest.mark.parametrize("exponent", range(-15, 0))
 @pytest.mark.parametrize("shapes", [("box", "box"), ("box", "circle"), ("sixteen", "triangle"), ("capsule", "rounded")])
 def test_gap_is_told_to_the_last_digits_on_both_sides_of_touching(shapes, exponent):
-    """Gaps and overlaps of 10^-15 to 10^-1 are exact within 1e-12 of the size, with the correct sign (C9)."""
+    """Gaps and overlaps of 10^-15 to 10^-1 are exact within 1e-12 of the size, with the correct sign
+    (docs/stability.md, C9).
+    """
     a, b = (CONVEX[name] for name in shapes)
     start = time_of_impact(a, STILL, STILL, b, (40.0, 0.3, 0.4), (-40.0, 0.3, 0.4))
     touch = 40.0 - 80.0 * start.fraction

@@ -1,4 +1,4 @@
-"""A body with a value that is not finite is disabled, without effect on the others (U1)."""
+"""A body with a value that is not finite is disabled, without effect on the others (invariant U1)."""
 
 import math
 

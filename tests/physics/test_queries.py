@@ -221,9 +221,9 @@ def test_shape_cast_is_the_time_of_impact_of_a_translation(probe, other):
 
 
 def test_shape_cast_in_contact_at_the_start():
-    """A shape cast that starts in contact hits at 0 if it approaches, ignores separating and sliding contacts (C16).
+    """A shape cast that starts in contact hits at 0 if it approaches (docs/stability.md, C16).
 
-    A cast without translation tests for overlap.
+    It ignores contacts that separate or slide. A cast without translation tests for overlap.
     """
     world = World(Effects())
     world.add_body(Polygon.box(10, 10), kind="static")
@@ -239,7 +239,7 @@ def test_shape_cast_in_contact_at_the_start():
 
 
 def test_ties_go_to_the_smaller_shape_id_and_filters_and_sensors_count():
-    """Equal hits go to the smaller shape id, and casts respect filters and sensors (H8, A9)."""
+    """Equal hits go to the smaller shape id, and casts respect filters and sensors (docs/stability.md, H8, A9)."""
     world = World(Effects(sensors=True))
     world.add_body(Circle(3.0), position=(20, 0), sensor=True)
     world.add_body(Circle(3.0), position=(20, 0), filter=Filter(2, 2))
@@ -287,7 +287,9 @@ def test_closest_point_of_every_kind(shape, point, nearest, gap):
 
 
 def test_ray_along_a_segment_and_beside_it():
-    """A ray along a segment hits it from its end on; parallel, separate or zero-length rays do not (H2)."""
+    """A ray along a segment hits it from its end on; parallel, separate or zero-length rays do not (docs/stability.md,
+    H2).
+    """
     world = World(Effects())
     world.add_body(Segment((0, 0), (10, 0)), kind="static")
     along = world.ray_cast((-5, 0), (10, 0))
@@ -300,7 +302,7 @@ def test_ray_along_a_segment_and_beside_it():
 
 
 def test_a_point_on_a_shared_border_is_of_one_tile_grid_once():
-    """A point on the border of two tiles belongs to their grid once (H3)."""
+    """A point on the border of two tiles belongs to their grid once (docs/stability.md, H3)."""
     world = World(Effects())
     world.add_body(TileGrid(np.ones((2, 2), bool), 16.0), kind="static")
     assert [each.id for each in world.query_point((16, 16))] == [0]
@@ -308,7 +310,7 @@ def test_a_point_on_a_shared_border_is_of_one_tile_grid_once():
 
 
 def test_far_from_the_origin_queries_answer_alike():
-    """Queries give the same results far from the origin (H4)."""
+    """Queries give the same results far from the origin (docs/stability.md, H4)."""
     near, far = World(Effects()), World(Effects())
     for world, base in ((near, 0.0), (far, 1e7)):
         for k in range(30):
@@ -353,7 +355,7 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
     ],
 )
 def test_wrong_arguments_are_named(call, error, words):
-    """The error for a wrong argument names it (H7)."""
+    """The error for a wrong argument names it (docs/stability.md, H7)."""
     world = World(Effects())
     world.add_body(Circle(1.0))
     with pytest.raises(error, match=words):

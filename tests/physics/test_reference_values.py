@@ -100,8 +100,8 @@ def apexes(world, ball, start, count, steps=1200):
 def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
     """The k-th bounce has a height of h e^2k.
 
-    Stacking solvers are right within 0.5 % and one slop (two where two slops can add); others within g dt t, the error
-    of one step.
+    With stacking solvers it is right within 0.5 % and one slop, or two slops where both bounces may overlap. With
+    others it is right within g dt t, the error of one step.
     """
     world = metres(solver)
     floor(world)
@@ -124,7 +124,7 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_bounces_end_in_the_time_of_the_series(solver):
-    """Bounces end after sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s, the sum of the series.
+    """Bounces end after sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s, the sum of the durations of all bounces.
 
     Stacking solvers are right within 0.5 %; the error of others shrinks with dt. The tolerances are 1/50 of the usual
     ones, so that small bounces count.
@@ -301,8 +301,9 @@ def test_box_on_a_plate_that_turns_tips_at_width_over_height(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hoop", [False, True])
 def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
-    """A disc rolls down with a = 2/3 g sin if mu >= tan / 3, a hoop with 1/2 g sin if mu >= tan / 2; otherwise they
-    slip.
+    """A disc rolls down a slope with a = 2/3 g sin if mu >= tan / 3, a hoop with 1/2 g sin if mu >= tan / 2.
+
+    With less friction they slip.
     """
     angle, radius = 0.4, 0.5
     mass, share = math.pi * radius**2, 2.0 if hoop else 3.0

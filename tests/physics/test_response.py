@@ -1,4 +1,4 @@
-"""Effects of the solvers on velocities and poses (U3, U5)."""
+"""Effects of the solvers on velocities and poses (invariants U3, U5)."""
 
 import math
 

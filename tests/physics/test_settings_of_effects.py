@@ -1,4 +1,6 @@
-"""Settings without their effect and unknown attributes raise errors; `restitution_speed`."""
+"""Settings without their effect and unknown attributes raise errors; `restitution_speed` is the
+threshold of bounces.
+"""
 
 import math
 

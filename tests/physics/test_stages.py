@@ -100,7 +100,7 @@ def step_watched(world, dt=None):
 
 
 def busy(effects, solver=None, **arguments):
-    """Return (world, ...) with every kind of body and shape that its effects allow."""
+    """Return a world and two of its parts, with every kind of body and shape that its effects allow."""
     world = World(effects, solver=solver, **arguments)
     e = effects
     moving = Material(friction=0.5, restitution=0.4, rolling_resistance=0.1, surface_speed=30.0)

@@ -1,4 +1,6 @@
-"""Tiles are merged into runs, so bodies that slide along them feel no seam, horizontally or vertically (U10)."""
+"""Tiles are merged into runs, so bodies that slide along them feel no seam, horizontally or
+vertically (invariant U10).
+"""
 
 import numpy as np
 import pytest

@@ -46,14 +46,18 @@ def test_disc_to_the_corner_of_a_box(angle):
 
 
 def test_box_and_segment():
-    """A box that moves onto a segment hits it exactly at fraction 0.5, without a tolerance of the slop (G20)."""
+    """A box that moves onto a segment hits it exactly at fraction 0.5, without a tolerance of the slop
+    (docs/stability.md, G20).
+    """
     found = time_of_impact(BOX, ORIGIN, ORIGIN, Segment((0, -1), (0, 1)), (2, 0, 0), ORIGIN)
     assert found.fraction == pytest.approx(0.5, abs=1e-12) and found.normal == (1.0, 0.0) and found.point[0] == 1.0
 
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
-    """A disc hits a segment rotated by -pi/2, whose end points are rounded, at fraction 0.5 (C17)."""
+    """A disc hits a segment rotated by -pi/2, whose end points are rounded, at fraction 0.5
+    (docs/stability.md, C17).
+    """
     upright = (1, 0, -math.pi / 2)
     disc, wall = (Circle(0.5), ORIGIN, (1, 0, 0)), (Segment((-1, 0), (1, 0)), upright, upright)
     found = time_of_impact(*(wall + disc if swap else disc + wall))
@@ -63,7 +67,7 @@ def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
 
 @pytest.mark.parametrize("half", [2e-4, 1e-5])
 def test_point_like_disc_past_a_short_edge(half):
-    """A tiny disc that passes a short edge misses it or hits it with a unit normal (C2)."""
+    """A tiny disc that passes a short edge misses it or hits it with a unit normal (docs/stability.md, C2)."""
     edge = Polygon.box(1.0, 2 * half)
     found = time_of_impact(Circle(1e-9), (0.506, 0.0035, 0), (0.496, -0.4965, 0), edge, ORIGIN, ORIGIN)
     assert not found.hit or math.hypot(*found.normal) == pytest.approx(1.0, abs=1e-12)
@@ -78,7 +82,7 @@ def test_point_like_disc_past_a_short_edge(half):
 )
 def test_touching_at_the_start_counts_when_it_approaches(shapes, move, hit, gap):
     """Shapes that touch or overlap at the start hit at 0 if they approach, and miss if they separate, slide or rest
-    (C16).
+    (docs/stability.md, C16).
     """
     if move == (0, 5) and gap < 0.0 and shapes[1] == Circle(1) and shapes[0] == Circle(1):
         return  # overlapping discs that pass each other part at once
@@ -95,7 +99,7 @@ def test_what_leaves_and_comes_back_by_turning_is_met_then():
 
 
 def test_grazing_tangent_and_a_hair_beside():
-    """A grazing touch is a hit; shapes that pass 1e-9 apart miss (C16)."""
+    """A grazing touch is a hit; shapes that pass 1e-9 apart miss (docs/stability.md, C16)."""
     assert time_of_impact(Circle(1), (-5, 2, 0), (5, 2, 0), Circle(1), ORIGIN, ORIGIN).fraction == pytest.approx(0.5)
     assert missed(time_of_impact(Circle(1), (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), Circle(1), ORIGIN, ORIGIN))
     assert missed(time_of_impact(BOX, (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), BOX, ORIGIN, ORIGIN))
@@ -269,7 +273,7 @@ def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
 @pytest.mark.parametrize("angle", [0.0, 1.0, 20.0])
 def test_what_rests_on_the_ground_does_not_go_through_it(ground, angle):
     """A body in contact at the start that is thrown into the ground at any slant is stopped, at the latest by its core
-    (E9).
+    (docs/stability.md, E9).
     """
     box = Polygon.box(10, 10)
     for x in (20.0, 40.0, 90.0, 300.0):

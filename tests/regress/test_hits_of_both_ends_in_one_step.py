@@ -1,7 +1,7 @@
 """A body that hits with both ends, or in a corner, within one step keeps its energy.
 
 Each impact uses the speed that the previous one has left. With the speeds from before the step, eleven of forty
-capsules in a room gained or lost more than 1 % in a thousand steps, one of them 41 %.
+capsules in a room gained or lost more than 1 % in a thousand steps; one gained or lost 41 %.
 """
 
 import pytest

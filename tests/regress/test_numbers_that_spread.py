@@ -2,8 +2,8 @@
 step.
 
 Only positions and velocities were checked, and a sweep of such a body ended Python. Version 0.1.0 also hung for a
-character's `climb` of 1e308, read past its arrays for a radius of NaN, and raised "math domain error" in a query about
-a body with an infinite angle.
+character's `climb` of 1e308 and read past its arrays for a radius of NaN. It raised "math domain error" in a query
+about a body with an infinite angle.
 """
 
 import math

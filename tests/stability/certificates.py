@@ -106,5 +106,5 @@ def contact_excess(found):
 
 
 def disagreements(found):
-    """Return how many pairs have contacts although they are separate, or none although they overlap (U10)."""
+    """Return how many pairs have contacts although they are separate, or none although they overlap (invariant U10)."""
     return int((found.touching != (found.distance <= 0.0)).sum())

@@ -156,7 +156,7 @@ def angle_of(start, end):
 
 
 def pendulum(engine):
-    """Simulate a pendulum in an engine and return {row: figure} for its rows of the table."""
+    """Simulate a pendulum in an engine and return {row: figure} for its rows of the table ROWS."""
     from tests.stability.test_n_joints import agm
 
     at = 2.0 * math.sin(1.0), 2.0 * math.cos(1.0)
@@ -181,7 +181,7 @@ def pendulum(engine):
 
 
 def double_pendulum(engine):
-    """Simulate a double pendulum in an engine and return {row: figure} for its rows of the table."""
+    """Simulate a double pendulum in an engine and return {row: figure} for its rows of the table ROWS."""
     first, second = engine.rod((0.0, 0.0), (1.0, 0.0)), engine.rod((1.0, 0.0), (2.0, 0.0))
     engine.pin(None, first, (0.0, 0.0))
     engine.pin(first, second, (1.0, 0.0))

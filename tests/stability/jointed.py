@@ -18,7 +18,7 @@ NAIVE = "iterative"  # the tier without exact trees
 def jointed(solver="soft_step", gravity=(0.0, GRAVITY), tier="auto", effects=None, **options):
     """Return a world in metres for jointed bodies.
 
-    tier: value of its `joint_solver`. effects: {name: value} of effects that differ from `pile_effects`.
+    tier: value of its `joint_solver`. effects: {name: value} of effects that differ from those of `pile_effects`.
     """
     world = metres(solver, gravity=gravity, effects=pile_effects(joints=True, **(effects or {})), **options)
     world.joint_solver = tier

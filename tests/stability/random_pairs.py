@@ -15,7 +15,7 @@ FURTHEST = 1e7  # [px] from the origin
 
 
 class Pairs(NamedTuple):
-    """n pairs of shapes with their poses as arguments for physics, and the same shapes as arrays, relative to A's
+    """n pairs of shapes and poses as arguments of physics functions, and the same shapes as arrays relative to A's
     position.
     """
 

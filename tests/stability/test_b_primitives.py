@@ -1,6 +1,6 @@
 """Hard cases of simple shapes and their manifolds (section B), checked against closed forms and exact arithmetic.
 
-A sign that flickers by one rounding begins and ends contacts; a wrong sign lets a needle pass through.
+If the sign of the distance flickers by one rounding, contacts begin and end. If it is wrong, a needle passes through.
 """
 
 import math

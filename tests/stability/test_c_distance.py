@@ -165,7 +165,7 @@ def test_c12_near_parallel_planes_end_soon(measured):
 
 
 def certify(measured, seed, count):
-    """Measure `count` random pairs of one seed against the limits of C13."""
+    """Measure `count` random pairs of one seed against the limits of row C13."""
     hits = 0
     for found in chunks(seed, count):
         measured("C13", "outside the bounds", distance_excess(found))

@@ -216,7 +216,8 @@ def test_d17_a_spike_between_the_corners_of_a_long_edge_is_met(measured):
 
 @pytest.mark.parametrize("radius, error", [(4, 0.028), (8, 0.011), (16, 0.0033), (32, 0.0012), (64, 0.0004)])
 def test_d18_discs_of_pixels_weigh_as_discs(measured, radius, error):
-    """The area of a pixel disc has the stated rms error over 200 random centres, and its inertia at most twice that.
+    """The area of a pixel disc has an rms error of at most `error` over 200 random centres, its inertia at most twice
+    that.
 
     The random centres differ from those of the quoted source.
     """

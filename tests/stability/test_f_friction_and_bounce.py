@@ -181,7 +181,7 @@ def test_f21_apex_is_the_square_of_restitution_whatever_the_margin(measured, sol
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 @pytest.mark.parametrize("restitution, count", [(1.0, 20), (0.9, 10)])
 def test_f22_twenty_bounces_lose_no_height_to_the_length_of_steps(measured, solver, restitution, count, shape):
-    """Twenty bounces lose no height to the step length: the free flight and the impact speed follow the parabola.
+    """Twenty bounces lose no height to the step length, because flight and impact speed follow the exact parabola.
 
     Other engines end at 0.08 to 1.0 of the correct height; without this method the engine ended at 0.80 and 0.45.
     """

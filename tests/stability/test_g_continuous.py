@@ -76,7 +76,8 @@ def test_g3_the_sweep_does_not_eat_the_speed_of_the_impact(measured, restitution
 
 
 def test_g4_long_steps_stop_at_the_wall_and_not_before(measured):
-    """With steps of 0.25 s at 20 m/s, a ball of radius 0.5 moves exactly until it stops at the wall face at x = 12.2.
+    """With steps of 0.25 s at 20 m/s, a ball of radius 0.5 moves 5 m a step until it stops at the wall face at x =
+    12.2.
 
     After the step of the impact 11.35 < x < 11.71; then it is at rest.
     """

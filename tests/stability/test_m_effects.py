@@ -56,7 +56,7 @@ def test_m1_an_effect_declared_and_not_used_changes_no_bit(measured, base, unuse
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse", "projection"])
 def test_m2_no_work_without_a_cause(measured, solver):
-    """Declared effects cause no work in a scene without a cause for them, and cause work once there is one."""
+    """Declared effects cause no work in a scene that does not need them, and cause work in one that does."""
     causeless = ("toi_calls", "tangent_rows", "restitution_rows", "mask_tests", "sensor_tests", "carved_pixels")
     effects = pile_effects(continuous=True, sensors=True, stacking=solver != "projection")
     smooth = Material(friction=0.0, restitution=0.0)

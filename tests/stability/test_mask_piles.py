@@ -1,4 +1,4 @@
-"""Piles of pixel masks stand as boxes do, heaps come to rest, and wedged masks are pushed out (U6)."""
+"""Piles of pixel masks stand as boxes do, heaps come to rest, and wedged masks are pushed out (invariant U6)."""
 
 import math
 
@@ -98,7 +98,7 @@ def test_sprites_come_to_rest_on_each_other(solver, seed):
 def test_two_hundred_sprites_sleep_within_eight_seconds_of_the_last_landing(solver, sprite, seed):
     """Two hundred sprites in a bin all sleep within eight seconds of the last new contact.
 
-    The longest time goes to sprites that roll off others, rock in a hollow or tremble where two outline parts meet.
+    Sprites that roll off others, rock in a hollow or tremble where two outline parts meet take the longest time.
     """
     landed, asleep, bodies = heap(200, seed, solver, 14.0, sprite)
     assert all(-240.0 < body.position.x < 240.0 and body.position.y < 200.0 for body in bodies), "none got out"

@@ -1,4 +1,6 @@
-"""Bodies thrown at walls of 1 to 3 pixels: with continuous collision none passes, without it most do (D, G)."""
+"""Bodies thrown at walls of 1 to 3 pixels: with continuous collision none passes, without it most do (sections D and
+G).
+"""
 
 import itertools
 import math
@@ -32,9 +34,9 @@ def test_none_passes(way):
 
 @pytest.mark.parametrize("seed, number", [(1, 138), (4, 28), (102, 1848), (103, 1777)])
 def test_those_that_once_passed(seed, number):
-    """Throws that once passed a thin wall now collide and do not pass, under both solvers.
+    """Throws that once passed a thin wall now collide with it and do not pass, under both solvers.
 
-    These bodies were deep in thin parts of an outline, or thin arms passed the wall before half their size did.
+    The bodies were deep in thin parts of an outline, or had thin arms that passed before half of the body did.
     """
     throw = next(itertools.islice(throws(number + 1, seed), number, None))
     for solver in ("soft_step", "sequential_impulse"):
@@ -136,7 +138,9 @@ def test_corners_that_touch_share_no_area():
 
 
 def test_a_spinning_stick_meets_what_its_end_sweeps_over():
-    """A stick that makes half a turn in a step collides with a pixel that neither end pose touches (D17, G14)."""
+    """A stick that makes half a turn in a step collides with a pixel that neither end pose touches (docs/stability.md,
+    D17, G14).
+    """
     effects = Effects(continuous=True, rotation=True)
     stick, dot = PixelMask(np.ones((1, 40), bool), snap=False), PixelMask(np.ones((1, 1), bool), snap=False)
     for place, told in (((0.0, 15.0), True), ((0.0, 19.0), True), ((0.0, 22.0), False), ((13.0, 13.0), True)):
@@ -148,7 +152,9 @@ def test_a_spinning_stick_meets_what_its_end_sweeps_over():
 
 
 def test_hollow_things_are_met_by_their_pixels():
-    """A ball inside a ring collides only with the rim's pixels, not with the ring's convex hull (D10)."""
+    """A ball inside a ring collides only with the rim's pixels, not with the ring's convex hull (docs/stability.md,
+    D10).
+    """
     at = np.hypot(*np.indices((40, 40)) - 19.5)
     ring = PixelMask((at <= 20.0) & (at > 16.0), snap=False)
     for speed, told in ((300.0, 0), (2000.0, 1)):
@@ -161,8 +167,8 @@ def test_hollow_things_are_met_by_their_pixels():
 
 @pytest.mark.parametrize("ball, wall", [(True, False), (False, True)])
 def test_fast_masks_through_thin_sensors_and_fast_sensors_through_masks(ball, wall):
-    """A fast mask and a thin sensor that cross get one begin and one end event (G16), and a
-    sensor stops no solid body.
+    """A fast mask and a thin sensor that cross get one begin and one end event (docs/stability.md, G16), and a sensor
+    stops no solid body.
     """
     effects = Effects(response=True, stacking=True, rotation=True, continuous=True, sensors=True)
     for thin in (PixelMask(np.ones((60, 1), bool)), Polygon.box(1, 60)):

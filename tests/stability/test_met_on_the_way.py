@@ -97,8 +97,9 @@ def test_who_flies_past_a_corner_is_not_turned_aside():
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_boxes_slide_over_forty_boxes_side_by_side(friction, substeps):
-    """A box slides as far on forty boxes side by side as on one long floor, and does not hop;
-    thirty boxes and speeds.
+    """A box slides as far on forty boxes side by side as on one long floor, and does not hop.
+
+    Thirty boxes of random sizes and speeds are tested.
     """
     rng = np.random.default_rng(3)
     for _ in range(30):

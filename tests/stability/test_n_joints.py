@@ -117,7 +117,9 @@ def swing(measured, row, ratio, solver):
 
 
 def naive_swing(measured, row, ratio):
-    """Let the same chain swing for 12 s with the iterative joint solver; with four substeps its joints separate."""
+    """Let a chain of 30 links swing for 12 s with the iterative joint solver; with four
+    substeps its joints separate.
+    """
     world = jointed(tier=NAIVE, substeps=4)
     chain(world, 30, ratio, phase(0.8))
     measured(row, "greatest gap, iterative tier", worst_in(world, SHARE * 12.0))

@@ -137,7 +137,7 @@ def test_n20_a_slider_stops_at_its_limit(measured, load, solver):
 def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
     """A pulley accelerates as Atwood's machine: B falls by g (m - ratio) / (m + ratio²).
 
-    m is the mass of B over that of A. The ropes are 0 to 5 m longer in the other phases.
+    m is the mass of B divided by that of A. In the other phases the ropes are up to 5 m longer.
     """
     for masses in (0.1, 0.5, 2.0, 30.0):
         world = jointed(solver)
@@ -155,9 +155,7 @@ def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("teeth", [-7, 24, 200])
 def test_n22_a_ratchet_turns_one_way(measured, teeth, solver):
-    """A ratchet turns freely by 2 rad one way, and its last tooth holds 20 times its inertia as
-    torque the other way.
-    """
+    """A ratchet turns freely by 2 rad one way; the other way its last tooth holds a torque of 20 times its inertia."""
     world, tooth, way = jointed(solver, gravity=(0.0, 0.0)), 2.0 * math.pi / teeth, math.copysign(1.0, teeth)
     disc, start = world.add_body(Circle(0.5)), phase(tooth)
     world.add_joint(Revolute(None, disc, at=(0.0, 0.0)))

@@ -66,7 +66,7 @@ def test_two_piles_are_two_islands_and_sleep_apart():
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_a_body_that_rolls_below_the_sleeping_speed_falls_asleep(share):
-    """A rolling disc falls asleep if its fastest point is below 0.05 m/s, and not before half a second."""
+    """A rolling disc falls asleep if its fastest point is slower than 0.05 m/s, but not before half a second."""
     world = metres(effects=SLEEPY)
     floor(world)
     speed = 0.5 * 0.05 * share  # of the centre; the rim moves twice as fast

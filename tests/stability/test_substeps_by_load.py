@@ -65,9 +65,9 @@ def test_a_pyramid_of_twenty_rows_and_the_accuracy_that_is_asked_for():
 
 
 def test_who_bears_little_takes_few_once_that_is_known():
-    """A lightly loaded box starts with 32 substeps and halves them every quarter of a second, down to four.
+    """A lightly loaded box starts with 32 substeps and halves the number every quarter of a second, down to four.
 
-    The quarter of a second lets the load of an impact decay.
+    Within a quarter of a second the load of an impact decays.
     """
     world = metres(substeps="auto")
     floor(world)

@@ -1,6 +1,6 @@
 """Random sweeps at ground that is one-sided or partly covered: no centre of mass enters the enclosed area.
 
-The oracle is the closed area of the same outline (shapely): the union of 3 x 3 tiles, or the polygon inside a chain.
+The reference is the closed area of the same outline (shapely): the union of 3 x 3 tiles, or the polygon inside a chain.
 Every solver, one and four substeps, and every mode of continuous collision are tested.
 """
 

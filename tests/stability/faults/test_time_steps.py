@@ -112,7 +112,7 @@ def test_a_ball_falls_as_far_in_steps_of_any_length(solver):
 def test_what_is_no_length_is_refused_and_changes_nothing(solver, dt):
     """An invalid step length raises an error and changes nothing.
 
-    In world.step(None) means world.dt; as the value of world.dt itself None is refused.
+    world.step(None) uses world.dt; setting world.dt to None is an error.
     """
     world, _ = pile(solver)
     hero = Character(world, Polygon.box(8, 16), (200, -8))

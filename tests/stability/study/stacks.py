@@ -39,12 +39,12 @@ def offset_places(count, share):
 
 
 def harmonic_places(count, share):
-    """Return the x [m] of the boxes of a tower in which the k-th from the top is shifted by share / 2k from the one
-    above it.
+    """Return the x [m] of the boxes of a tower, the lowest first.
 
-    With a share of 1 the centre of mass of the upper k boxes is above the edge of the box below, for every k. No tower
-    of single boxes reaches farther (half a harmonic number; Paterson and Zwick 2009, section 1). With any share, this
-    centre is share / 2 from the middle of the box below, so all heights reach the limit together.
+    The k-th box from the top is shifted by share / 2k from the one above it. With a share of 1 the centre of mass of
+    the upper k boxes is above the edge of the box below, for every k. No tower of single boxes reaches farther (half a
+    harmonic number; Paterson and Zwick 2009, section 1). With any share, this centre is share / 2 from the middle of
+    the box below, so all heights reach the limit together.
     """
     places = [0.0]
     for k in range(1, count):
