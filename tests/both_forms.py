@@ -1,4 +1,4 @@
-"""Runs every call of a stage's kernel in both forms: the compiled form, and the plain form on copies of the arguments.
+"""Comparison of the two forms of each kernel call: the compiled form, and the plain form on copies of the arguments.
 
 A player runs both forms, so both must return the same values and write the same bytes. Floats are compared by their
 bits, except that any NaN equals any NaN. Sign and payload of a NaN depend on the order of operands, which the compiler
@@ -38,7 +38,7 @@ class Seen:
 def compared(stop: bool = True) -> Iterator[Seen]:
     """Compare the two forms of each stage's kernel that is called in the with block.
 
-    Raises FormsDiffer at the end with all differences; with stop=True at the first one.
+    Raises FormsDiffer: at the first difference if `stop` is True, otherwise at the end with all differences.
     """
     seen = Seen()
 
@@ -114,7 +114,7 @@ class Copies:
     def take_over_empty_lanes(self):
         """Copy the data that only a compiled pass writes: empty lanes, and data gathered within a pass.
 
-        This excludes them from the comparison.
+        These data are thereby excluded from the comparison.
         """
         for blocks, copy in self.blocks:
             copy.gathered[:] = blocks.gathered

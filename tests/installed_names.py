@@ -25,7 +25,9 @@ def as_in_a_checkout(source: str) -> str:
 
 
 def own_modules(folder):
-    """Write a user's project whose modules have the names of the checkout's; each prints a line when imported."""
+    """Write a user's project whose modules have the names of the checkout's modules; each
+    prints a line when imported.
+    """
     for top in layout_module().TOPS:
         path = folder / (f"{top}.py" if top in ("physics", "main") else f"{top}/__init__.py")
         path.parent.mkdir(parents=True, exist_ok=True)

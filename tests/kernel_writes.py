@@ -1,5 +1,4 @@
-"""Finds the arguments that a kernel writes: directly, through a row (`b = bodies[i]; b.vx = 0.0`), or by passing them
-on.
+"""Analysis of the arguments that a kernel writes: directly, through a row (`b = bodies[i]; b.vx = 0.0`), or by a call.
 
 The analysis uses the syntax tree and ignores order: a name that is once bound to a row of an argument always counts.
 """

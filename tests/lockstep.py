@@ -1,4 +1,4 @@
-"""Steps variants of one scene side by side and compares their digests after every frame.
+"""Comparison of variants of one scene that are stepped side by side, by their digests after every frame.
 
 The variants: the scene twice, drawn, under each broad phase, with the broad phase switched, compiled and plain. None of
 these may change the result. If one does, the first frame that differs is reported, with the part of the scene. Every
@@ -134,8 +134,8 @@ class PlainRun:
 def ways_to_run(name, recorder=None, few=False, seed=1):
     """Yield a run for each condition that must not change the result; the first is the reference for the others.
 
-    recorder: function that makes the recorder of the first run from its scene, or None. The run under the scene's own
-    broad phase repeats the first run.
+    recorder: function that makes the recorder of the first run from its scene, or None. One of the runs uses the
+    scene's own broad phase, so it repeats the first one.
     """
     first = make_scene(name, few, seed)
     yield Run("the scene", first, recorder=recorder and recorder(first))

@@ -163,7 +163,7 @@ def pytest_configure(config):
 
 
 class Meter:
-    """Measures the time of each test's phases; a shared fixture counts for every test that uses it."""
+    """Plugin that measures the time of each test's phases; a shared fixture counts for every test that uses it."""
 
     def __init__(self, clock):
         self.clock, self.shared = clock, {}  # {key of a fixture: seconds}
@@ -210,7 +210,7 @@ def key_of(fixturedef) -> tuple[str, str]:
 
 
 class Keeper:
-    """Writes the seconds of all tests as JSON, by node id."""
+    """Plugin that writes the seconds of all tests as JSON, by node id."""
 
     def __init__(self, path):
         self.path, self.seconds = path, {}

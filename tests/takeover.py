@@ -1,4 +1,4 @@
-"""Compares a scene whose plain kernels are replaced by compiled forms at random steps with the same scene compiled.
+"""Comparison of a scene whose plain kernels are replaced by compiled forms at random steps with the scene compiled.
 
 No process or thread is started: the wanted forms are loaded or compiled between two random steps. Both runs share the
 kernels of the process, so the compiled scene runs first and its digests are stored.

@@ -1,4 +1,6 @@
-"""A world that compares all broad phases steps as without, and names a wrong broad phase with the pair."""
+"""A world that compares all broad phases gives the results of a normal one, and names a wrong
+broad phase and the pair.
+"""
 
 import copy
 

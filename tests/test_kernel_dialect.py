@@ -239,7 +239,9 @@ def test_writes_are_seen_through_rows_tuples_loops_and_calls(body, written):
 
 
 def statement_lines(function):
-    """Return the number of statement lines of a kernel, with each statement on one line except for blocks."""
+    """Return the number of lines of a kernel's body after ast.unparse, which joins a statement
+    of several lines to one.
+    """
     return sum(len(ast.unparse(node).splitlines()) for node in function.body[1:])
 
 

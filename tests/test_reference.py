@@ -266,7 +266,7 @@ STARTING = {"compile_in_background", "Background.stop", "Background.expect", "wa
 
 
 class Called(Exception):
-    """Raised to stop an example when its call is reached."""
+    """Exception that stops an example when its call is reached."""
 
 
 IMPLEMENTED = {Shape: Circle, Strategy: SpatialHashGrid}  # an interface, and the class with which its examples call it

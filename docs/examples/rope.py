@@ -15,7 +15,7 @@ from physics.tables.joint import LENGTH
 
 @dataclass(frozen=True)
 class Rope(Kind):
-    """Keeps two anchors [px] no further apart than `slack` times their distance when the joint is created."""
+    """Joint that limits the distance of two anchors [px] to `slack` times their distance when it is created."""
 
     PARTS = {"coordinate": LENGTH}
     POINTS = ("at_a", "at_b")

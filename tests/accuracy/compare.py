@@ -52,14 +52,17 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
 
 
 class Change(NamedTuple):
-    """Times of a series in the second report relative to the first, compared with the series timed in turns with it."""
+    """Ratio of a series' times in the second report to those in the first, and how certain it is.
+
+    It is relative to the series that were timed in turns with this one.
+    """
 
     ratio: float  # median of the least times
     sure: float  # share of its rows whose intervals, least to median, are apart
 
     @property
     def slower(self) -> bool:
-        """True if the series is certainly slower, by more than the share that counts as a tie in a report."""
+        """Whether the series is certainly slower, by more than the share that counts as a tie in a report."""
         return self.ratio >= 1.0 + TIE_SHARE and self.sure >= SURE
 
 

@@ -44,7 +44,7 @@ python -m tests.accuracy DIR            # writes this page from that report
 
 
 def panel_of(chart: Chart, rows: list) -> Panel:
-    """Return the panel of a chart that is listed in STORY."""
+    """Return the panel of a chart whose title STORY gives for this chart."""
     panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
     return next(panel for panel in panels if panel.title == STORY[chart.key])
 
@@ -64,7 +64,7 @@ def rows_of(kept: dict, chart: Chart) -> list:
 
 
 def dots(kept: dict, chart: Chart) -> list[Dot]:
-    """Return the dots of a chart's panel in STORY."""
+    """Return the dots of the panel that STORY selects of a chart."""
     return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
 
 

@@ -1,4 +1,4 @@
-"""Run the benchmarks and print tables. Compare ratios of one run; absolute times depend on the machine.
+"""Command that runs the benchmarks and prints tables. Compare ratios of one run; absolute times depend on the machine.
 
 python -m tests.bench masks                                one benchmark: masks, broadphase, solvers or moving
 python -m tests.bench                                      all four, one after the other

@@ -54,7 +54,8 @@ def hills():
 
 
 def carve_times(count):
-    """Return the seconds of making the ground, and lists of seconds of carves that split nothing and that split it.
+    """Return (seconds of making the ground, seconds of each carve that keeps it whole, seconds of each carve that
+    splits it).
 
     The carves are discs along the surface of the ground.
     """

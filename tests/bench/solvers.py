@@ -65,7 +65,7 @@ class Pymunk:
 
 
 class Run:
-    """Run of one solver's pyramid: its step times and its state at the end."""
+    """One solver's run with a pyramid: its step times and its state at the end."""
 
     def __init__(self, pile):
         self.pile, self.times = pile, []

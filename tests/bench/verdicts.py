@@ -89,8 +89,9 @@ def half_over(rng, count):
 
 
 def is_near(solid, where):
-    """Return whether the second sprite overlaps the first when it is moved by up to 2 px in one of 16 directions, per
-    pose.
+    """Return, for each pose, whether the second sprite overlaps the first when it is moved by up to 2 px.
+
+    The moves go in 16 directions.
     """
     near = np.zeros(len(where), bool)
     for way in np.arange(16) * np.pi / 8:

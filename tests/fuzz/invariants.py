@@ -71,7 +71,9 @@ class Watch:
     # --- numbers ---------------------------------------------------------------------------------------------------
 
     def numbers(self):
-        """Check U1 and U2, also for sleeping contacts, and that no contact pulls."""
+        """Check that numbers are finite (U1) and normals have unit length (U2), also of sleeping contacts, and that no
+        contact pulls.
+        """
         world = self.world
         for name, bad in (
             ("numbers are finite", not_finite(world, sleeping=True)),
@@ -163,7 +165,9 @@ class Watch:
         hold(found <= self.touching, "contacts have begun", found - self.touching)
 
     def as_the_shapes_are(self):
-        """Check U10 in worlds without response: two shapes have a contact exactly if their distance is not above 0."""
+        """Check invariant U10 in worlds without response: two shapes have a contact exactly if their distance is at
+        most 0.
+        """
         world, placed = self.world, []
         for body in world:
             row = world.bodies[world.rows([body.id])[0]]

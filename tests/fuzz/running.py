@@ -1,4 +1,4 @@
-"""Runs the lines of a program one by one, checks the world after each, and describes the first failure."""
+"""Runner of a program's lines, one by one: it checks the world after each line and describes the first failure."""
 
 import linecache
 import random
@@ -46,8 +46,9 @@ def is_documented(error):
 
 
 class Runner:
-    """Runs lines in its own namespace. strategy: broad phase that replaces all that the lines name; None for those
-    named.
+    """Runner of lines in a namespace of its own.
+
+    strategy: broad phase that replaces all that the lines name; None to use those.
     """
 
     def __init__(self, strategy=None):

@@ -1,4 +1,4 @@
-"""Shortens a failing program: fewer lines first, then simpler lines, while it fails in the same way."""
+"""Reduction of a failing program: fewer lines first, then simpler lines, while it fails in the same way."""
 
 import re
 

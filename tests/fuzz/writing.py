@@ -1,4 +1,4 @@
-"""Writes the next line of a random program, knowing the present world: most lines are valid, some are not."""
+"""Generator of a random program, line by line, from the present world: most lines are valid, some are not."""
 
 import re
 
@@ -12,7 +12,7 @@ STEP = 12  # of so many lines and this many, this many are steps
 
 
 class Writer:
-    """Writes lines for a namespace in which the previous lines have been run."""
+    """Generator of lines for a namespace in which the previous lines have been run."""
 
     def __init__(self, rng):
         self.rng, self.values, self.named = rng, Values(rng), 0
@@ -56,8 +56,9 @@ class Writer:
         return self.rng.choice(self.edits)(self.rng.choice(bodies or [f"world.body({len(self.world)})"]))
 
     def _living(self, pattern, start=0):
-        """Return the names in the namespace that match a pattern and whose body is in the world, from position `start`
-        on.
+        """Return the names in the namespace that match a pattern and whose body is in the world.
+
+        start: number of first letters to cut off each name.
         """
         found = []
         for name, value in self.space.items():

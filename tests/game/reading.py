@@ -34,7 +34,7 @@ def contrast(a, b):
 
 
 class Reader:
-    """Records every line of text that is drawn in its with block: `with Reader() as reader:`."""
+    """Recorder of every line of text that is drawn in its with block: `with Reader() as reader:`."""
 
     def __enter__(self):
         self.lines, self.before = [], (Canvas.text, Canvas.text_if_free)

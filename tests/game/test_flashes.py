@@ -35,7 +35,9 @@ def squares(surface):
 
 
 class FlashMeter:
-    """Counts the general flashes in a sequence of pictures. Each square stores its last turning point of luminance."""
+    """Counter of the general flashes in a sequence of pictures. Each square stores its last
+    turning point of luminance.
+    """
 
     def __init__(self):
         self.low = self.high = self.way = None

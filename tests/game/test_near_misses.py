@@ -1,4 +1,7 @@
-"""The split screen that opens "What accuracy costs" (boxes hit, pixels never do), and how every menu leads to it."""
+"""The split screen that opens "What accuracy costs", and how every menu leads to it.
+
+On its side with boxes planes are hit; on its side with pixels they never are.
+"""
 
 import re
 from itertools import combinations

@@ -147,8 +147,9 @@ def stepped(steps):
 @pytest.mark.parametrize("scale", [2, 3])
 @pytest.mark.parametrize("layer", ["masks", "outlines"])
 def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
-    """Outlines are drawn at the pose of the last step at any scale, also between steps, when sprites are drawn there
-    too.
+    """Outlines are drawn at the pose of the last step at any scale.
+
+    This holds between steps, too; sprites are drawn at the same pose then.
     """
     scene = stepped(12)
     before = scene_digest(scene)

@@ -28,7 +28,7 @@ KINDS = {"tap": 42, "hold": 10, "click": 20, "drag": 6, "wheel": 6, "pad": 8, "l
 
 
 class Hands:
-    """Makes random inputs on a running program."""
+    """Source of random inputs to a running program."""
 
     def __init__(self, driver, seed):
         self.driver, self.random = driver, np.random.default_rng(seed)

@@ -1,4 +1,4 @@
-"""Changes of one operator in a kernel's syntax tree, which simulate typing errors.
+"""Changes of one operator in a kernel's syntax tree, which simulate slips in programming.
 
 A change is identified by the kernel's name, a kind and a seed. The seed picks one of the positions at which this kind
 is possible, in the order of the source. A change is therefore still found after its kernel moves or its variables are

@@ -42,7 +42,9 @@ def area_of(pieces, pose=(0.0, 0.0, 0.0)):
 
 
 def loop_of(rng, links, size, concave):
-    """Return the corners of a simple loop, clockwise on the screen. concave: with a corner that turns inwards."""
+    """Return the corners of a random simple loop, clockwise on the screen. concave: True gives it a corner that turns
+    inwards.
+    """
     while True:
         angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, links))
         if np.diff(np.append(angles, angles[0] + 2.0 * np.pi)).max() > 3.0:

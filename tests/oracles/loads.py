@@ -11,8 +11,9 @@ FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_
 
 
 def forget_loads(world, ids):
-    """Clear the cached forces below bodies that are removed together, if they exceeded those of an impact. ids: of
-    these bodies.
+    """Clear the cached forces below bodies that are removed together, where they exceeded those of an impact.
+
+    ids: ids of the removed bodies.
     """
     contacts, bodies = world.contact_rows, world.bodies
     ids_a, ids_b = contacts["body_a"], contacts["body_b"]

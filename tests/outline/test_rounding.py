@@ -1,4 +1,4 @@
-"""Round pieces get round outlines within the guarantees of outlines; and complete masks are divided into parts."""
+"""Round pieces get round outlines within the documented limits, and masks are divided into parts."""
 
 import math
 

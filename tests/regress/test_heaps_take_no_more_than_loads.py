@@ -1,5 +1,5 @@
-"""A heap takes no more substeps than its loads need; the tumbler once took 128 in every step, 3.6 times as long as
-four.
+"""A heap takes no more substeps than its loads need; the tumbler once took 128 in every step, which cost 3.6 times as
+much time as four substeps.
 
 Extra substeps are only for columns, whose bodies have one body below and one above.
 """

@@ -24,8 +24,9 @@ TOUCHES = 3.0  # [px] in a body that is no box, a character may be by its feet a
 def crushed(effects, hero, crusher, speed, down, stop, up, times=1):
     """Return a tuple for each step: (all moves report squeezed, no move does, depth in the crusher [px], head).
 
-    The crusher moves at `speed` for `down` steps, rests for `stop` and moves back for `up`. head: whether its lower
-    side is above the middle of the character. times: number of moves in each step.
+    The crusher moves at `speed` for `down` steps, rests for `stop` and moves back for `up`. head: distance in y from
+    the middle of the character to the lower side of the crusher, if that is a box [px], positive if the side is the
+    lower of the two. times: number of moves in each step.
     """
     world = World(effects)
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
@@ -60,9 +61,9 @@ def test_it_is_told_without_a_gap(effects, hero, crusher):
 @pytest.mark.parametrize("hero", HEROES)
 @pytest.mark.parametrize("speed", [2.0, 10.0, 47.0])
 def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
-    """A box crusher squeezes the character exactly while they share a pixel.
+    """A box crusher squeezes the character exactly while the two share a pixel.
 
-    Closed form: the character is on the pixel grid, and the lower side of the box is below its head.
+    Closed form: the character is on the pixel grid, and the lower side of the box is below the character's head.
     """
     down = round(16.0 / speed * 60)
     found = crushed(EFFECTS["plain"], hero, "box", speed, down, 10, down // 2)

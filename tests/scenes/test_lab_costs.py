@@ -1,4 +1,6 @@
-"""Costs in labs: a dash until measured outside the frame, then figures over 300 steps of the lab's own world."""
+"""Labs show a dash for a cost until it is measured outside the frame, then figures over 300 steps of the lab's own
+world.
+"""
 
 import re
 

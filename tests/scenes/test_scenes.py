@@ -57,8 +57,8 @@ def play(scene, frames, source=None):
 def played_and_replayed(name, frames, path):
     """Play the scene by its bot, and again from its recording. Return both runs.
 
-    The second run is drawn with every overlay for 20 s, compares all broad phases in each step, and switches them.
-    Raises ReplayDiverged with the first frame that differs, StrategiesDisagree with the pairs.
+    The second run is drawn with every overlay for 20 s. It compares all broad phases in each step, and changes from one
+    to another. Raises ReplayDiverged with the first frame that differs, StrategiesDisagree with the pairs.
     """
     scene = make_scene(name, FEW)
     run = Run("the scene", scene, recorder=Recorder(scene, bot=True))

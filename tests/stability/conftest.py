@@ -89,7 +89,9 @@ def pytest_configure(config):
 
 
 class Keeper:
-    """Writes the worst value of every measured figure to a JSON file; figures that were not measured stay unchanged."""
+    """Plugin that writes the worst value of every measured figure to a JSON file; other figures in the file stay
+    unchanged.
+    """
 
     def __init__(self, path):
         self.path, self.worst = path, {}

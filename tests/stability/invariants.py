@@ -44,12 +44,12 @@ def pulling(world):
 
 
 class Watch:
-    """Steps a world and asserts the invariants of game/invariants after every step.
+    """A world's steps, with a check of the invariants of game/invariants after each of them.
 
     passive: no energy may be added from now on (invariant U5), whatever the world's tables suggest. isolated: no
-    external force acts, so the momentum must stay constant (invariant U3). depth: largest overlap allowed after every
-    step [px]. capped: True allows the substep cap to be hit (invariant U11); under the default settings a lack of
-    substeps is counted, but is no failure. without: names of the invariants that this world breaks on purpose.
+    external force acts, so the momentum must stay constant (U3). depth: largest overlap allowed after every step [px].
+    capped: True allows the substep cap to be hit (U11); under the default settings a lack of substeps is counted, but
+    is no failure. without: names of the invariants that this world breaks on purpose.
     """
 
     def __init__(self, world, passive=False, isolated=False, depth=math.inf, capped=False, without=()):

@@ -1,4 +1,4 @@
-"""A scene's measurement requests run outside its frames: each run is measured five times, once, and cached by name."""
+"""A scene's measurement requests run outside its frames; each run is measured five times and cached by name."""
 
 import json
 

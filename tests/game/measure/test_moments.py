@@ -96,8 +96,9 @@ def test_the_way_of_a_broad_phase_is_no_other_and_fewer_substeps_are_worse():
 
 
 def test_a_fall_is_off_by_what_the_closed_form_says():
-    """The path error of a free fall is that of semi-implicit Euler, g h t / 2, compared with a reference of a 64th of
-    h.
+    """The path error of a free fall is that of semi-implicit Euler, g h t / 2.
+
+    It is measured against a reference with a 64th of the step h.
     """
     world = World(Effects(response=True, gravity=True), BROADPHASES["tree"](), gravity=(0.0, 320.0))
     world.add_body(Polygon.box(4, 4))

@@ -92,7 +92,7 @@ def test_the_mean_chord_of_a_box_is_pi_area_over_perimeter():
 
 @pytest.mark.parametrize("width, radius, speed", ((2.0, 3.0, 40.0), (1.0, 0.5, 6.0), (10.0, 4.0, 15.0)))
 def test_who_is_only_looked_at_between_steps_misses_as_often_as_the_formula_says(width, radius, speed):
-    """Tests between steps only miss a wall at the rate max(0, 1 - (w + 2r) / (v dt)).
+    """Tests between steps alone miss a wall at the rate max(0, 1 - (w + 2r) / (v dt)).
 
     The disc starts anywhere within a step of the wall.
     """

@@ -39,7 +39,7 @@ def test_a_program_finds_the_hits_of_every_frame(traffic, name):
 def test_a_world_that_tests_no_pair_is_not_measured(monkeypatch):
     """A world whose broad phase tests no pair is not measured, but raises an error.
 
-    Its sprites stand still, as when a chart reversed their speeds in each step.
+    The sprites of the test stand still. In a faulty chart they did so because their speeds were reversed in each step.
     """
 
     class Standing(Traffic):

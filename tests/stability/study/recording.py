@@ -24,7 +24,7 @@ class Run:
 
 
 class Watch:
-    """Detects whether a dynamic body of a scene has fallen since the start poses, an array (bodies, 6)."""
+    """Test of whether a dynamic body of a scene has fallen since the start poses, an array (bodies, 6)."""
 
     def __init__(self, scene, start):
         self.fall, self.rows, self.start = scene.fall, scene.dynamic, start[scene.dynamic]
