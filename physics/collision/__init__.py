@@ -1,1 +1,1 @@
-"""Narrow phase: contacts of the candidate pairs that the broad phase has found."""
+"""Narrow phase: computes the contacts of the candidate pairs that the broad phase has found."""

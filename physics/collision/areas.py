@@ -1,4 +1,4 @@
-"""The areas [px2] that a mask shares with the shapes in contact with it.
+"""Areas [px2] that a mask shares with the shapes it touches.
 
 The solver does not use these areas, so they are computed only when the user reads the contacts.
 """
@@ -25,10 +25,11 @@ from physics.tables.table import rows_of
 
 @subkernel
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
-    """Write the corners [px] of one part of a tile grid or chain to workspace.b. Return the number of corners.
+    """Write the outline of one part of a tile grid or chain to workspace.b. Return the number of corners.
 
-    row: row number in SHAPE; part: for a grid the index of the first cell of a run of tiles (one rectangle of equal
-    cells), for a chain the index of a link. A link has no area, so it is widened to a rectangle of thickness BACKING.
+    The corners are in world coordinates [px]. row: row number in SHAPE of the grid or chain. part: for a grid the index
+    of the first cell of a run (adjacent equal tiles in a row, one rectangle), for a chain the index of a link. A link
+    has no area, so it is widened to a rectangle of thickness BACKING.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -53,8 +54,8 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
     """Return the area [px2] that a mask shares with one part of a tile grid or chain.
 
-    mask, other: row numbers in SHAPE of the mask and of the grid or chain; part: see outline_of_part; workspace:
-    scratch memory.
+    mask: row number in SHAPE of the mask; other: row number in SHAPE of the grid or chain; part: index of a link, or of
+    the first cell of a run of tiles (see outline_of_part); workspace: scratch memory.
     """
     count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
     s = shapes[mask]
@@ -65,10 +66,10 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 
 @kernel
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
-    """Compute area_1 and area_2 [px2] again, at the present poses, in every CONTACT row whose area_1 is not 0.
+    """Recompute area_1 and area_2 [px2], at the present poses, of every CONTACT row whose area_1 is not 0.
 
-    area_2 is written only for the second point of a contact with tiles or a chain. O(shared pixels). workspace: scratch
-    memory.
+    The rows are updated in place. area_2 is written only for the second point of a contact with tiles or a chain.
+    O(shared pixels). workspace: scratch memory.
     """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -94,12 +95,12 @@ def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
-    """Return the contacts (CONTACT rows) with the areas [px2] that their shapes share at the present poses.
+    """Return the CONTACT rows with the areas [px2] that their two shapes share at the present poses.
 
     The rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels
-    overlap. Each point has the area of the whole pair. Against tiles and chains it has the area in the touched run or
-    link only. In worlds without contact response, a step only tests whether two masks overlap. For these contacts this
-    function also computes point, normal and depth. tables: a World or StepState.
+    overlap. Every point of a contact has the area that the whole shapes share. Against tiles and chains, it has only
+    the area in the touched run of tiles or link. Without contact response, a step only tests whether two masks overlap.
+    For pairs of masks this function then also computes point, normal and depth. tables: a World or StepState.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -125,17 +126,17 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 @kernel
 def put_back(full, places, manifolds_out):
-    """Copy CONTACT rows over the rows of the same pairs in manifolds_out.
+    """Copy each CONTACT row of `full` over the row of the same candidate pair in manifolds_out.
 
-    full: the CONTACT rows to copy; manifolds_out: CONTACT rows; places (pairs,): for each candidate pair (column
-    `candidate`), the number of its row in manifolds_out.
+    places (pairs,): row number in manifolds_out for each pair; the column `candidate` of `full` is the index in
+    `places`.
     """
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
 def _in_full(tables, manifolds):
-    """Return the CONTACT rows, with point, normal and depth computed for each pair of masks that still overlaps."""
+    """Return the CONTACT rows; those of two masks that still overlap get a newly computed point, normal and depth."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
@@ -149,9 +150,10 @@ def _in_full(tables, manifolds):
 
 
 def _rows(shapes, manifolds, side):
-    """Return the present SHAPE row number of each contact's shape on one side, "a" or "b"; -1 for a removed shape.
+    """Return the present SHAPE row number of each contact's shape A or B; -1 for a removed shape.
 
-    The row numbers that the step stored are used, unless shapes were added or removed since. manifolds: CONTACT rows.
+    manifolds: CONTACT rows; side: "a" or "b". The row numbers that the step stored are used, unless shapes were added
+    or removed since the step.
     """
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

@@ -1,4 +1,4 @@
-"""Collision of chains with discs and hulls, link by link, and of one-way platforms made of masks."""
+"""Collision of chains with discs, hulls and masks, link by link, and of one-way platforms made of masks."""
 
 import math
 
@@ -63,8 +63,8 @@ ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's normal ins
 def link_at(links, link, x, y, cosine, sine, corners_out):
     """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and the far ends of its neighbours.
 
-    links: LINK table; link: row number in it; x, y [px], cosine, sine: pose of the chain's body. The order is a, b,
-    before, after (see LINK). Other functions of this file take the result as `points`.
+    The order is a, b, before, after: "before" is the far end of the previous link, "after" that of the next link.
+    links: LINK table; link: row number in it; x, y [px], cosine, sine: pose of the chain's body.
     """
     k = links[link]
     for end in range(4):
@@ -77,9 +77,9 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 @subkernel
 def dot_along(points, i, j, x, y, origin):
-    """Return the dot product [px2] of two vectors: points[origin] to (x, y), and points[i] to points[j].
+    """Return the dot product [px2] of the vectors points[origin] -> (x, y) and points[i] -> points[j].
 
-    points (16, 2) [px].
+    points (16, 2) [px]; i, j, origin: row numbers in `points`; x, y [px].
     """
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
@@ -88,9 +88,10 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the signed distance [px] of (x, y) from the line from point i to point j; positive on its left.
+    """Return the signed distance [px] of (x, y) from the line through points i and j; positive on the line's left.
 
-    points (16, 2) [px]; i, j: row numbers of the two points. Left and right are as seen on the screen, with y down.
+    points (16, 2) [px]; i, j: row numbers in `points`. The line is directed from i to j. Left and right are as seen on
+    the screen, with y down.
     """
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
@@ -98,7 +99,10 @@ def height_over(points, i, j, x, y):
 
 @subkernel
 def is_convex(points, i, j, k):
-    """Return whether the chain of points i, j, k bends away from its front side at j."""
+    """Return whether the polyline i, j, k bends away from its front (left) side at j.
+
+    points (16, 2) [px]; i, j, k: row numbers in `points`.
+    """
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -108,7 +112,10 @@ def is_convex(points, i, j, k):
 
 @subkernel
 def is_gentle_hollow(points, i, j, k):
-    """Return whether the chain of points i, j, k bends towards its front side at j, by less than 30 degrees."""
+    """Return whether the polyline i, j, k bends towards its front (left) side at j, by less than 30 degrees.
+
+    points (16, 2) [px]; i, j, k: row numbers in `points`.
+    """
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -121,8 +128,9 @@ def is_gentle_hollow(points, i, j, k):
 def is_behind(link, points, x, y):
     """Return whether a shape with its centre at (x, y) is behind a link, and therefore does not collide with it.
 
-    link: LINK row; points: see link_at. In a gentle hollow the centre may slide past the end of one link and thus
-    behind the next one. The shape still collides with the next link while its centre is in front of the first link.
+    At a gentle hollow the centre may slide past the end of the neighbouring link, and so get behind this link. It does
+    not count as behind this link while it is in front of the neighbouring link. link: LINK row; points: the link's ends
+    and the far ends of its neighbours [px], see link_at.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -147,18 +155,19 @@ def is_behind(link, points, x, y):
 def owns_start(link, points, x, y):
     """Return whether this link, not the previous one, reports contacts at its end a with a shape centred at (x, y).
 
-    link: LINK row; points: see link_at.
+    link: LINK row; points: the link's ends and the far ends of its neighbours [px], see link_at.
     """
     return link.first_owned or height_over(points, 2, 0, x, y) < 0.0
 
 
 @subkernel
 def collide_link_circle(link, points, x, y, radius):
-    """Collide a link with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
+    """Collide a link with a disc. Return (found, nx, ny, px, py, separation, feature); lengths in px.
 
-    The normal points from link to disc; px, py: contact point, midway between the surfaces. feature: 0 for the link's
-    face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b. link: LINK row; points: see link_at; x, y,
-    radius: centre and radius of the disc.
+    found: whether they have a contact; nx, ny: unit normal from link to disc; px, py: contact point, midway between the
+    surfaces; feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b. link: LINK
+    row; points: the link's ends and the far ends of its neighbours, see link_at; x, y, radius: centre and radius of the
+    disc.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     height = nx * (x - points[0, 0]) + ny * (y - points[0, 1])
@@ -197,18 +206,18 @@ def collide_link_circle(link, points, x, y, radius):
 def is_towards_end(points, nx, ny):
     """Return whether the direction (nx, ny) points towards end b of a link rather than towards its end a.
 
-    points: see link_at.
+    points (16, 2) [px]: the first two rows are the link's ends a and b.
     """
     return dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
 
 
 @subkernel
 def classify_normal(link, points, towards_end, nx, ny):
-    """Return how to treat the normal (nx, ny) from a link to a hull: ADMIT, SNAP or SKIP.
+    """Return how to treat the normal (nx, ny) from a link to a hull at one end of the link: ADMIT, SNAP or SKIP.
 
     ADMIT: use the normal. SNAP: use the link's own normal. SKIP: no contact, because the neighbouring link reports it.
-    link: LINK row; points: see link_at; towards_end: True if the hull touches the link's end b, False for its end a.
-    The neighbour at this end is considered.
+    towards_end: True if the hull touches the link's end b, False for its end a. The result depends on the neighbour at
+    this end. link: LINK row; points: the link's ends and the far ends of its neighbours [px], see link_at.
     """
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -235,9 +244,9 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
-    The neighbour is the one at the end towards which (nx, ny) points. It is better under two conditions. The Hull's
-    centre must be in front of it. And the Hull's separation from it must be greater than `face` [px], the separation
-    from this link. points: see link_at; x, y: centre of the Hull.
+    The neighbour at the end towards which (nx, ny) points is tested. It is better if the Hull's centre (x, y) is in
+    front of it, and all corners of the Hull are farther than `face` [px] in front of it. face: the Hull's separation
+    from this link; points: this link's ends and the far ends of its neighbours [px], see link_at.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -255,8 +264,9 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
-    separation from this plane is greater than that from the link's face, `face` [px], and at most `margin` [px]. link:
-    LINK row; points: see link_at; manifold_out (11,): see hulls.clip_edges.
+    separation from this plane is greater than `face` and at most `margin`. face [px]: the Hull's separation from the
+    link's face; margin [px]: largest gap of a contact. link: LINK row; points: see link_at; manifold_out (11,): result,
+    format in hulls.clip_edges.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -288,10 +298,11 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the contact points at end a that the previous link reports. Return the number of remaining points.
+    """Drop the contact points at end a of a link that the previous link reports. Return the number of remaining points.
 
-    link: LINK row; points: see link_at; x, y: centre of the other shape; count: number of points before; manifold_out
-    (11,): see hulls.clip_edges.
+    x, y: centre of the other shape; count: number of points in the manifold before the call; manifold_out (11,): the
+    manifold, format in hulls.clip_edges. link: LINK row; points: the link's ends and the far ends of its neighbours
+    [px], see link_at.
     """
     nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
@@ -314,10 +325,10 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. The points and the Hull
-    need their normals, see hulls.write_normals. A contact near the end of a link is reported by one of the two links
-    there. If each left it to the other, the caller makes a second pass over the links. is_second: whether this is the
-    second pass, in which no contact is left to a neighbour.
+    Where two links meet, only one of them reports a contact. If each of them expects the other to report it, the caller
+    tests the links a second time. is_second: True in this second pass; then the link reports all of its contacts. link:
+    LINK row; points: see link_at; `points` and the Hull need edge normals, see hulls.write_normals; margin, bias,
+    manifold_out: as in hulls.collide_hulls.
     """
     corners = hull.corners
     count = hull.count
@@ -385,9 +396,9 @@ BACKING = 2.0  # [px] thickness added behind a link when it is tested against a 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a world box in the local space of a body.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a world box, transformed to the local space of a body.
 
-    min_x, min_y, max_x, max_y [px]: the box in the world; x, y, cosine, sine: pose of the body.
+    min_x, min_y, max_x, max_y [px]: the box in the world; x, y [px], cosine, sine: pose of the body.
     """
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
@@ -398,18 +409,15 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from a box.
-
-    min_x, min_y, max_x, max_y: the box.
-    """
+    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box min_x .. max_y."""
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
 @inlined
 def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contacts of a chain and a hull or mask, link by link. Return the new number of contacts.
+    """Append the contacts of candidate number `pair`, a chain and another shape, link by link. Return the new number.
 
-    O(links near the other shape). Arguments: see manifold.make_pass.
+    The other shape is a hull or mask. O(links near the other shape). Arguments: see manifold.make_pass.
     """
     geometry = batch.geometry
     bodies = batch.bodies
@@ -503,9 +511,9 @@ collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 @subkernel
 def line_separation(line, hull):
-    """Return the separation [px] of a Hull from a line segment; negative if the Hull lies across it.
+    """Return the separation [px] of a Hull from a line segment; negative if the Hull overlaps the segment.
 
-    line (16, 4): its first two rows are the ends of the segment. Line and Hull need their normals, see
+    line (16, 4): its first two rows are the ends of the segment. `line` and the Hull need edge normals, see
     hulls.write_normals.
     """
     corners = hull.corners
@@ -529,10 +537,11 @@ def line_separation(line, hull):
 
 @subkernel
 def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
-    """Return whether a Hull lies across a chain by more than `most` [px].
+    """Return whether a Hull overlaps a chain by more than `most` [px].
 
-    The chain is extended horizontally at both ends. The Hull needs its normals, see hulls.write_normals. chain: row
-    number in geometry.chains; x, y, angle: pose of the chain's body; line_out (16, 4): scratch. O(links near the Hull).
+    The chain is extended horizontally at both ends. The Hull needs edge normals, see hulls.write_normals. chain: row
+    number in geometry.chains; x, y [px], angle [rad]: pose of the chain's body; line_out (16, 4): scratch. O(links near
+    the Hull).
     """
     span = geometry.chains[chain]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -572,10 +581,10 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 
 @subkernel
 def was_across(batch, surface, other, most, workspace):
-    """Return whether a shape lay across a one-way surface by more than `most` [px], at the poses before the step.
+    """Return whether, at the poses before the step, a shape overlapped a one-way surface by more than `most` [px].
 
-    surface, other: row numbers in SHAPE of the surface and of the shape; batch: see manifold.Batch. workspace: scratch
-    memory.
+    surface: row number in SHAPE of the surface, a chain; other: row number in SHAPE of the other shape; batch: a
+    manifold.Batch; workspace: scratch memory.
     """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
@@ -596,11 +605,12 @@ def was_across(batch, surface, other, most, workspace):
 
 @kernel
 def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
-    """Decide for each SURFACE_ANY pair whether its shapes may collide: set its kind to CHAIN_ANY, else to NOTHING.
+    """Change the kind of each SURFACE_ANY pair: to CHAIN_ANY if its shapes may collide, else to NOTHING.
 
-    They may collide if they touched in the last step, or if the other shape was not across the one-way surface at the
-    previous poses. known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind
-    of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links). batch: see manifold.Batch.
+    A SURFACE_ANY pair is a one-way surface and another shape. They may collide if they touched in the last step, or if
+    the other shape did not overlap the surface at the previous poses. known: whether workspace.memory holds the
+    contacts of the last step. kinds_inout (candidates,): kind of each pair; counts_inout: number of pairs of each kind.
+    O(candidates + nearby links). batch: a manifold.Batch.
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -1,4 +1,4 @@
-"""Collision of circles, capsules and polygons: passes over the candidate pairs, with speculative contacts."""
+"""Collision of circles, capsules and polygons: the tests of their candidate pairs, with speculative contacts."""
 
 import math
 from typing import NamedTuple
@@ -60,8 +60,8 @@ NEVER = -1.0  # in place of a time: the shapes do not meet
 def needs_ccd(body, distance):
     """Return whether a body that moves by `distance` [px] in a step needs continuous collision detection.
 
-    A body needs it if the distance exceeds its inradius, unless it is static. Such a body gets no speculative contacts.
-    body: BODY row.
+    It does if it is not static and `distance` exceeds its inradius. Such a body gets no speculative contacts. body:
+    BODY row.
     """
     return body.kind != STATIC and distance > body.inradius
 
@@ -70,10 +70,9 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    It is `margin` [px] if a body needs continuous collision detection. Otherwise it is the distance covered in
-    `lookahead` [s], but at least the margin. The distance is that of the greatest of three speeds: `speed`, and the
-    speeds of both bodies, because one of them may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B
-    relative to A.
+    If a body needs continuous collision detection, this is `margin` [px]. Otherwise it is the distance covered in
+    `lookahead` [s] at the greatest of three speeds, but at least `margin`. The speeds are `speed` [px/s], that of B
+    relative to A, and the speed of each body, because contacts may stop the other body. a, b: BODY rows.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -81,7 +80,7 @@ def speculative_distance(a, b, speed, margin, lookahead):
 
 @subkernel
 def turning_speed(a, b):
-    """Return an upper bound [px/s] of the speed at which rotation alone closes a gap of two bodies. a, b: BODY rows."""
+    """Return an upper bound [px/s] of the speed at which rotation closes a gap between two bodies. a, b: BODY rows."""
     return abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent
 
 
@@ -90,7 +89,7 @@ def speculative_rotation(a, b, speed, margin, lookahead):
     """Return the largest gap [px] that the rotation of two bodies may close in `lookahead` [s]; at least the margin.
 
     The distance closed by rotation is limited to half the extent of the smaller body. If a body needs continuous
-    collision detection, the result is the margin. Arguments as in speculative_distance.
+    collision detection, the result is `margin` [px]. a, b: BODY rows; speed [px/s]: speed of B relative to A.
     """
     distance = lookahead * speed
     if needs_ccd(a, distance) or needs_ccd(b, distance):
@@ -101,10 +100,10 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 
 @subkernel
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Return the contact (nx, ny, x, y, separation) [px] of two discs.
+    """Return the contact (nx, ny, x, y, separation) of two discs; lengths in px.
 
-    The normal points from A to B; x, y: contact point, midway between the surfaces. Discs with equal centres get the
-    normal (1, 0). ax, ay, a_radius, bx, by, b_radius: centres and radii.
+    nx, ny: unit normal from A to B, (1, 0) for discs with equal centres; x, y: contact point, midway between the
+    surfaces. ax, ay, a_radius, bx, by, b_radius: centres and radii.
     """
     dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
@@ -116,7 +115,7 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 
 @subkernel
 def toi_circles(dx, dy, radii, vx, vy):
-    """Return the time [s] at which two discs touch, or NEVER.
+    """Return the time [s] until two moving discs touch; NEVER if they do not meet.
 
     dx, dy [px]: vector from the centre of the first disc to the centre of the second; radii [px]: sum of both radii;
     vx, vy [px/s]: velocity of the second disc relative to the first.
@@ -144,11 +143,12 @@ def time_of_closest_approach(dx, dy, vx, vy):
 
 @subkernel
 def toi_hulls(a, vx, vy, target, most, b_inout):
-    """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
+    """Return the time [s] at which the gap between two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    a, b_inout: the Hulls, with their normals (hulls.write_normals); Hull B moves at vx, vy [px/s] relative to Hull A.
-    Its corners are moved to their place at the returned time. If the gap stops shrinking before, the time of least
-    distance is returned. If the target is not reached within `most` [s], NEVER is returned. O(corners²) an iteration.
+    Hull B (b_inout) moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their positions at the returned
+    time. If the gap stops shrinking before it reaches the target, the time of least distance is returned. NEVER: the
+    target is not reached within `most` [s], or within MAX_ADVANCES iterations. Both Hulls need edge normals
+    (hulls.write_normals). O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -185,12 +185,12 @@ def copy_corners(hull, corners_out):
 
 @subkernel
 def advance_to_contact(margin, lookahead, p, q, a, b, corners_out):
-    """Write the corners and normals of Hull B at its predicted contact with Hull A, if the pair is fast.
+    """Write the corners and normals of Hull B at its predicted contact with Hull A. Return (time, vx, vy, reach).
 
-    a, b: the Hulls; p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest
-    time. Return (time, vx, vy, reach). time [s]: time of the contact, NEVER, or 0 if B need not be moved; then
-    corners_out (16, 4) may be unwritten; vx, vy [px/s]: velocity of B relative to A; reach [px]: largest separation of
-    a contact point at the moved place. It exceeds the margin if rotation may close a wider gap.
+    time [s]: time until the contact, or NEVER; 0 if the pair is too slow for a prediction, and then corners_out (16, 4)
+    is not valid. vx, vy [px/s]: velocity of B relative to A. reach [px]: largest separation of a contact point after
+    the move; more than `margin` if rotation may close a wider gap. a, b: the Hulls; p, q: BODY rows of A and B; margin
+    [px]: gap at the predicted contact; lookahead [s]: greatest time.
     """
     if lookahead * closing_speed_bound(p, q) <= margin and lookahead * turning_speed(p, q) <= margin:
         return 0.0, 0.0, 0.0, margin
@@ -206,11 +206,11 @@ def advance_to_contact(margin, lookahead, p, q, a, b, corners_out):
 
 @subkernel
 def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
-    """Return the time [s] at which the gap of a Hull and a moving disc has shrunk to `target` [px].
+    """Return the time [s] at which the gap between a Hull and a moving disc has shrunk to `target` [px].
 
     x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. If the gap stops
-    shrinking before, the time of least distance is returned. If the target is not reached within `most` [s], NEVER is
-    returned. O(corners) an iteration.
+    shrinking before it reaches the target, the time of least distance is returned. NEVER: the target is not reached
+    within `most` [s], or within MAX_ADVANCES iterations. O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
     time = 0.0
@@ -229,20 +229,20 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def path_offsets(time, vx, vy, nx, ny):
-    """Return the displacement [px] of B in a time [s] as (distance against the normal, distance along the tangent).
+    """Return the motion of B in `time` [s] as (distance against the normal, distance along the tangent) [px].
 
-    The first is positive if B approaches A. vx, vy [px/s]: velocity of B relative to A; nx, ny: unit normal; the
-    tangent is (-ny, nx).
+    The first distance is positive if B approaches A. vx, vy [px/s]: velocity of B relative to A; nx, ny: unit normal
+    from A to B; the tangent is (-ny, nx).
     """
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
 
 @subkernel
 def move_manifold_back(time, vx, vy, points_inout):
-    """Convert a manifold that was computed at the predicted contact to the present position of B.
+    """Convert a manifold from the predicted position of B, at the contact, to B's present position.
 
-    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): the manifold, see hulls.clip_edges. Return the
-    distance [px] that B moves along the tangent (-ny, nx) until the contact.
+    time [s]: time until the contact; vx, vy [px/s]: velocity of B until then; points_inout (11,): the manifold, format
+    in hulls.clip_edges. Return the distance [px] that B moves along the tangent (-ny, nx) until the contact.
     """
     nx, ny = points_inout[1], points_inout[2]
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
@@ -256,7 +256,7 @@ def move_manifold_back(time, vx, vy, points_inout):
 
 
 class Travel(NamedTuple):
-    """Motion of a shape relative to a tile grid or chain within a step. It is the same for all of its runs or links."""
+    """Motion of a shape relative to a tile grid or chain within a step; the same for all runs of tiles and links."""
 
     vx: float  # [px/s]
     vy: float
@@ -278,8 +278,8 @@ class Meeting(NamedTuple):
 def travel_of(batch, ground, body):
     """Return the Travel of a body relative to the ground. ground, body: BODY rows.
 
-    Two kinds of bodies get no prediction (reach is the margin, time is 0): slow bodies, and fast bodies that are left
-    to continuous collision detection. batch: see manifold.Batch.
+    Slow bodies, and fast bodies that need continuous collision detection, get no prediction: their Travel has reach =
+    margin and time = 0. batch: a manifold.Batch.
     """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
@@ -293,8 +293,9 @@ def travel_of(batch, ground, body):
 def advance_to_piece(travel, margin, piece, hull, corners_out):
     """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
-    margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. If travel.time is 0, there is
-    no prediction: the Hull is not moved, and the time is 0. corners_out (16, 4): the result, with normals.
+    The time is that until the contact. If travel.time is 0, there is no prediction: the Hull is not moved, and 0 is
+    returned. margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link; corners_out (16,
+    4): receives corners and edge normals.
     """
     copy_corners(hull, corners_out)
     if travel.time == 0.0:
@@ -306,10 +307,11 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 
 @subkernel
 def move_piece_manifold_back(time, travel, sign, points_inout):
-    """Convert a manifold of ground and hull, computed at their predicted contact, to the hull's present position.
+    """Convert a manifold of ground and hull from the hull's predicted contact position to its present position.
 
-    time [s]: time until the contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): the manifold, see
-    hulls.clip_edges. Return the distance [px] that B moves relative to A along the tangent until the contact.
+    time [s]: time until the contact; travel: motion of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout
+    (11,): the manifold, format in hulls.clip_edges. Return the distance [px] that the hull moves along the tangent
+    until the contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -322,10 +324,10 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 @subkernel
 def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
-    """Return whether the predicted contact of a disc with a corner is false, because the disc's path misses the piece.
+    """Return whether to reject a predicted contact of a disc with a corner, because the disc's path misses the piece.
 
-    graze [px]: a contact with at most this separation is always kept; disc: (x, y, radius) at the predicted contact;
-    separation [px], feature: of this contact; corners_out (16, 4): scratch.
+    meeting: the predicted contact; graze [px]: a contact with at most this separation is never rejected; disc: (x, y,
+    radius) at the predicted contact; separation [px], feature: those of this contact; corners_out (16, 4): scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -340,9 +342,9 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
 
 @subkernel
 def set_tangential_offset(before, found, offset, manifolds_out):
-    """Write the tangential offset [px] of the contact that was just added, if one was added.
+    """Write the tangential offset [px] of the last appended contact, if a contact was appended.
 
-    before, found: number of contacts before and after the addition; found may exceed the capacity of manifolds_out.
+    before, found: number of contacts before and after the append; found may exceed the capacity of manifolds_out.
     """
     if before < found <= len(manifolds_out):
         manifolds_out[before].tangential_offset = offset
@@ -350,10 +352,10 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 
 @inlined
 def time_to_piece(travel, margin, piece, x, y, radius):
-    """Return the time [s] at which a disc meets a piece of ground, or NEVER.
+    """Return the time [s] until a disc meets a piece of ground, or NEVER.
 
-    It is 0 if travel.time is 0: no prediction. margin [px]: gap at the meeting; piece: Hull of a run of tiles or of a
-    link; x, y, radius [px]: centre and radius of the disc.
+    If travel.time is 0, there is no prediction, and 0 is returned. travel: motion of the disc; margin [px]: gap at the
+    meeting; piece: Hull of a run of tiles or of a link; x, y, radius [px]: centre and radius of the disc.
     """
     if travel.time == 0.0:
         return 0.0
@@ -365,8 +367,8 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
     """Append the contact of a disc with a piece of ground. Return the new number of contacts.
 
     meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
-    hulls.collide_hull_circle or chains.collide_link_circle for this position. pair, manifolds_out, found: see
-    manifold.add_manifold. batch: see manifold.Batch. workspace: scratch memory.
+    hulls.collide_hull_circle or chains.collide_link_circle for the disc at this position. pair, manifolds_out, found:
+    as in manifold.add_manifold. batch: a manifold.Batch; workspace: scratch memory.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -386,10 +388,10 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
 @inlined
 def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
-    """Append the manifold in workspace.points, of a hull and a piece of ground. Return the new number of contacts.
+    """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of contacts.
 
-    The manifold was computed at the predicted contact `meeting` and is converted to the present position. pair,
-    manifolds_out, found: see manifold.add_manifold. batch: see manifold.Batch.
+    The manifold was computed at the predicted contact `meeting`; it is converted to the hull's present position. pair,
+    manifolds_out, found: as in manifold.add_manifold. batch: a manifold.Batch.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -403,7 +405,10 @@ def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
 
 @inlined
 def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two circles. Return the new number of contacts. Arguments: see manifold.make_pass."""
+    """Append the contact of candidate number `pair`, two circles. Return the new number of contacts.
+
+    Arguments: see manifold.make_pass.
+    """
     bodies, shapes = batch.bodies, batch.shapes
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
@@ -438,7 +443,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a hull of two or more corners and a circle. Return the new number of contacts.
+    """Append the contact of candidate number `pair`, a circle and a hull of two or more corners. Return the new number.
 
     Arguments: see manifold.make_pass.
     """
@@ -486,11 +491,11 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 
 @subkernel
 def overlaps_narrowly(a, b, most, far, manifold):
-    """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
+    """Return whether two Hulls have a narrow contact face: their extents overlap by at most `most` [px] along it.
 
-    The overlap is that of the Hulls' extents along the face. far: whether the Hulls move far in this step. If so, a
-    distance of at most `most` between the two contact points is also enough. At rest such a narrow contact may carry a
-    load (the edge of a card). manifold (11,): see clip_edges in hulls.py.
+    far: whether the Hulls move far in this step. If so, the face is also narrow if its two contact points are at most
+    `most` apart. For slow Hulls this does not count, because such a contact may carry a load (the edge of a card).
+    manifold (11,): format in hulls.clip_edges.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -503,10 +508,10 @@ def overlaps_narrowly(a, b, most, far, manifold):
 def is_grazing(a, b, batch, p, q, manifold):
     """Return whether to drop the contact of two Hulls because they only pass each other in this step.
 
-    Two conditions must hold. The path of B must miss A, up to an overlap of batch.graze [px], a tolerance. And the
-    contact must be between corners, or have a normal mainly along the motion, or be on a patch no wider than
-    batch.graze. Without this rule, a tile that stands slightly above its neighbour would stop a sliding body. a, b: the
-    Hulls; p, q: BODY rows of A and B; manifold (11,): see clip_edges in hulls.py.
+    Two conditions must hold. First, the path of B misses A, except for an overlap of at most batch.graze [px]. Second,
+    one of three holds: the contact is between corners, its normal is mainly along the motion, or its face is no wider
+    than batch.graze. Without this rule, a tile slightly higher than its neighbour would stop a sliding body. a, b: the
+    Hulls; p, q: BODY rows of A and B; manifold (11,): format in hulls.clip_edges.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
@@ -524,7 +529,7 @@ def is_grazing(a, b, batch, p, q, manifold):
 
 @inlined
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two hulls of two or more corners each. Return the new number of contacts.
+    """Append the contact of candidate number `pair`, two hulls of two or more corners each. Return the new number.
 
     Arguments: see manifold.make_pass.
     """

@@ -36,10 +36,10 @@ PART = 4096  # number of feature ids of one tile run or one link
 
 @subkernel
 def clipped_feature(edge, corner, side, flipped):
-    """Return the feature id of a manifold point on the incident edge, which is clipped to the reference edge.
+    """Return the feature id of a point of the incident edge after clipping to the reference edge.
 
-    edge: index of the reference edge; corner: index of the incident corner; side: end of the incident edge, 0 or 1;
-    flipped: 1 if the reference polygon is B, else 0.
+    edge: index of the reference edge; corner: index of the incident edge's corner; side: end of the incident edge, 0 or
+    1; flipped: 1 if the reference polygon is B, else 0.
     """
     return ((edge * 16 + corner) * 2 + side) * 2 + flipped
 
@@ -67,7 +67,7 @@ def part_feature(part, feature):
 
 @subkernel
 def part_of(feature):
-    """Return the index of the link, or of the run's first cell, in a feature id (inverse of part_feature)."""
+    """Return the part that a feature id names: index of a link, or of a run's first cell (inverse of part_feature)."""
     return feature // PART
 
 
@@ -100,7 +100,7 @@ ALL_EDGES = 0xFFFFFFFF
 
 
 class Hull(NamedTuple):
-    """A convex hull with rounded corners. With one corner it is a disc, with two a line segment or a capsule."""
+    """A convex hull with rounded corners: a disc if it has one corner, a line segment or capsule if it has two."""
 
     corners: np.ndarray  # (16, 4) corners [px], clockwise on the screen, and edge normals: see write_normals
     count: int  # number of corners
@@ -122,11 +122,11 @@ def edge_normal(corners, count, k):
 
 @subkernel
 def write_normals(count, corners_inout):
-    """Write the outward unit normal of each hull edge beside its first corner. O(count).
+    """Write the outward unit normal of each hull edge to the row of the edge's first corner. O(count).
 
     count: number of corners; corners_inout (16, 4): columns 0 and 1 are the corners [px], columns 2 and 3 receive the
-    normals. Functions that test many edges of the same hull read them from there, because a square root and two
-    divisions for each edge take longer than the tests.
+    normals. Computing each normal once saves time: a square root and two divisions take longer than the test of an
+    edge.
     """
     for k in range(count):
         nx, ny = edge_normal(corners_inout, count, k)
@@ -148,10 +148,10 @@ def middle_of(corners, count):
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull.
 
-    At a corner that is not touchable (covered by a neighbouring part of the same shape) no normal is valid. At some
-    corners only one edge is on the outline of the whole shape. There the normal may deviate from the normal of this
-    edge by at most the angle stored in `edges`. At all other corners every normal is valid. corner: index of the
-    corner; edges: bits, see ALL_EDGES; count: number of corners.
+    No normal is valid at a corner that is not touchable (covered by a neighbouring part of the same shape). At a corner
+    where only one edge is on the outline of the whole shape, the normal must be within an angle of this edge's normal.
+    The angle is stored in `edges`. At other corners every normal is valid. corner: index of the corner; edges: bits,
+    see ALL_EDGES; count: number of corners.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -170,9 +170,10 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
 def find_max_separation(corners, count, allowed, other, other_count):
     """Find the edge of a polygon along whose normal another polygon is farthest away (separating axis test).
 
-    corners (16, 4) [px]: with normals, see write_normals; other (16, any) [px]; count, other_count: numbers of corners;
-    allowed: bit k is set if edge k may be returned. Return (edge or -1, greatest separation over the allowed edges
-    [px], greatest separation over all edges [px]). O(count · other_count).
+    Return (edge or -1, greatest separation over the allowed edges, greatest separation over all edges) [px]. The edge
+    is the allowed one with the greatest separation; -1 if none is allowed. corners (16, 4) [px]: with normals, see
+    write_normals; other (16, any) [px]: corners of the other polygon; count, other_count: numbers of corners; allowed:
+    bit k is set if edge k may be returned. O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
@@ -193,10 +194,10 @@ def find_max_separation(corners, count, allowed, other, other_count):
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
-    The opposite edge is clipped to the reference edge. Both Hulls need their normals, see write_normals. edge: index of
+    The opposite edge is clipped to the reference edge. Both Hulls need edge normals, see write_normals. edge: index of
     the reference edge; limit [px]: points with a larger separation are dropped; flipped: True if `reference` is B, so
     that the normal is inverted. manifold_out (11,) float64: number of points, normal x and y from A to B, then x, y,
-    separation [px] and feature of each of two points. Return the number of points.
+    separation [px] and feature id of each of two points. Return the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -254,7 +255,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
 def support_manifold(reference, edge, incident, flipped, manifold_out):
     """Write a manifold of one point: the corner of the Hull `incident` that is deepest under an edge of `reference`.
 
-    Arguments as in clip_edges. Return 1, the number of points.
+    Return 1, the number of points. Arguments as in clip_edges.
     """
     corners, _, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -286,12 +287,12 @@ COVERED = -1  # in place of a feature id: the centre of the disc is inside, and 
 
 @subkernel
 def collide_polygon_circle(corners, count, edges, x, y, radius):
-    """Collide a convex polygon with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
+    """Collide a convex polygon with a disc. Return (found, nx, ny, px, py, separation, feature); lengths in px.
 
-    The normal points to the disc; px, py: contact point, midway between the surfaces. edges: bits of the touchable
-    edges and corners, see ALL_EDGES. If the nearest edge or corner is not touchable, nothing is found, because the
-    neighbour that covers it reports the contact. If the centre of the disc is inside, the nearest touchable edge is
-    used; without such an edge, feature is COVERED. O(count).
+    found: whether there is a contact; nx, ny: unit normal to the disc; px, py: contact point, midway between the
+    surfaces. edges: bits of the touchable edges and corners, see ALL_EDGES. If the nearest edge or corner is not
+    touchable, nothing is found, because a neighbouring part reports the contact. If the centre of the disc is inside,
+    the nearest touchable edge is used; without such an edge, feature is COVERED. O(count).
     """
     best = -1
     inner = -1
@@ -353,10 +354,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 @subkernel
 def aabb_corners(shape, corners_out):
-    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left.
-
-    Return 4, their number.
-    """
+    """Write the 4 corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return 4."""
     return box_corners(shape.min_x, shape.min_y, shape.max_x, shape.max_y, corners_out)
 
 
@@ -370,10 +368,10 @@ def move_corners(count, x, y, corners_inout):
 
 @subkernel
 def collide_aabb_corners(a, b, margin, manifold_out):
-    """Write a manifold of one point, between the nearest corners of two boxes that are apart along both axes.
+    """Write a manifold of one point between the nearest corners of two AABBs that are separated along both axes.
 
-    a, b: SHAPE rows; manifold_out (11,): see clip_edges. Return the number of points; 0 if the corners are farther
-    apart than `margin` [px].
+    Return the number of points; 0 if the corners are farther apart than `margin` [px]. a, b: SHAPE rows; manifold_out
+    (11,): format in clip_edges.
     """
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
@@ -400,7 +398,7 @@ def collide_aabb_corners(a, b, margin, manifold_out):
 def collide_aabbs(a, b, margin, manifold_out):
     """Write the manifold of the AABBs of two SHAPE rows. Return the number of points.
 
-    It is 0 if the separation exceeds `margin` [px]. manifold_out (11,): see clip_edges.
+    The number is 0 if the separation exceeds `margin` [px]. manifold_out (11,): format in clip_edges.
     """
     up = a.min_y - b.max_y
     right = b.min_x - a.max_x
@@ -463,7 +461,7 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return the place of the point nearest to (x, y) on the line segment from a to b: from 0 at a to 1 at b.
+    """Return t in 0..1, so that a + t (b - a) is the point of the line segment from a to b nearest to (x, y).
 
     ax, ay, bx, by: ends of the segment.
     """
@@ -486,7 +484,8 @@ def distance_to_edge(ax, ay, bx, by, x, y):
 def same_side(a, b):
     """Return 1.0 if both ends of segment a are on the same side of the line through segment b.
 
-    Return -1.0 if the ends are on opposite sides, and 0.0 if an end is on the line. a, b (2, 2): ends [px].
+    Return -1.0 if the ends are on opposite sides, and 0.0 if an end is on the line. a, b (2, 2) [px]: ends of the
+    segments.
     """
     ex = b[1, 0] - b[0, 0]
     ey = b[1, 1] - b[0, 1]
@@ -499,9 +498,9 @@ def same_side(a, b):
 
 @subkernel
 def segment_distance(a, b):
-    """Return the distance [px] of two segments; 0 if they cross. a, b (2, 2): ends [px].
+    """Return the distance [px] of two line segments; 0 if they cross. a, b (2, 2) [px]: ends of the segments.
 
-    This distance supplements the separating axis test, whose face normals cannot separate two segments on one line.
+    The separating axis test needs this distance, because face normals cannot separate two segments on one line.
     """
     if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0
@@ -520,9 +519,10 @@ def segment_distance(a, b):
 
 @subkernel
 def nearest_corners(a, a_count, b, b_count):
-    """Return (index of a corner of A, index of a corner of B, distance [px]) of the two nearest corners.
+    """Return (corner of A, corner of B, distance [px]) for the two nearest corners of polygons A and B.
 
-    O(a_count · b_count).
+    The corners are returned as indices. a, b: corner arrays; a_count, b_count: numbers of corners. O(a_count ·
+    b_count).
     """
     best = math.inf
     best_i, best_j = 0, 0
@@ -539,7 +539,7 @@ def nearest_corners(a, a_count, b, b_count):
 def corner_manifold(a, i, b, j, limit, manifold_out):
     """Write a manifold of one point between corner i of Hull A and corner j of Hull B. Return the number of points.
 
-    It is 0 if the separation exceeds `limit` [px]. manifold_out (11,): see clip_edges.
+    The number is 0 if the separation exceeds `limit` [px]. manifold_out (11,): format in clip_edges.
     """
     x = a.corners[i, 0]
     y = a.corners[i, 1]
@@ -565,8 +565,8 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 def ends_face(corners, count, edges, corner, nx, ny):
     """Return whether a corner is an end of a touchable edge whose normal is within 6 degrees of (nx, ny).
 
-    nx, ny: unit vector; corner: index of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES;
-    count: number of corners.
+    corners, count: the polygon; corner: index of the corner; edges: bits of the touchable edges and corners, see
+    ALL_EDGES; nx, ny: unit vector.
     """
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
@@ -589,11 +589,11 @@ def is_over(corners, count, edge, x, y):
 
 @subkernel
 def pushing_edges(a, b, over_ends):
-    """Return bits of the edges of Hull A whose normals may push A out of Hull B, which is a part of a larger outline.
+    """Return bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
 
-    An edge of A may push if it faces a touchable corner of B. It may not if B's neighbour continues the surface at this
-    corner. over_ends: also include edges of A that are nearly parallel to a touchable edge of B and lie over an end of
-    it; such an edge may also touch B at its other end. All bits of corners are set in the result, see ALL_EDGES.
+    An edge of A may push if the corner of B that faces it is touchable, and its normal is valid there (see
+    is_normal_at_corner). over_ends: True to include also edges of A that lie over an end of a nearly parallel touchable
+    edge of B. All bits of corners are set in the result, see ALL_EDGES.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -611,7 +611,7 @@ def pushing_edges(a, b, over_ends):
 
 @subkernel
 def overlaps_edge(hull, edge, other):
-    """Return whether an edge (index) of `hull` and the Hull `other` overlap when projected onto the edge's line."""
+    """Return whether an edge (index) of `hull` and the Hull `other` overlap if projected onto the edge's line."""
     corners = hull.corners
     others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0
@@ -628,7 +628,7 @@ def overlaps_edge(hull, edge, other):
 
 @subkernel
 def clip_tolerance(corners, count, edge):
-    """Return the rounding error [px] to allow for a point that was clipped to an edge. edge: index of the edge."""
+    """Return the allowed rounding error [px] of a point that was clipped to edge number `edge` of a hull."""
     n = edge + 1 if edge + 1 < count else 0
     ex = abs(corners[n, 0] - corners[edge, 0]) + abs(corners[n, 1] - corners[edge, 1])
     return 1e-9 * ex + 1e-15 * (abs(corners[edge, 0]) + abs(corners[edge, 1]))
@@ -638,7 +638,7 @@ def clip_tolerance(corners, count, edge):
 def least_separation(count, manifold):
     """Return the least separation [px] of a manifold's points; infinite without points.
 
-    count: number of points; manifold (11,): see clip_edges.
+    count: number of points; manifold (11,): format in clip_edges.
     """
     if count == 0:
         return math.inf
@@ -647,7 +647,7 @@ def least_separation(count, manifold):
 
 @subkernel
 def extent_along(corners, count, nx, ny):
-    """Return (least, greatest) projection [px] of the corners onto the unit vector (nx, ny)."""
+    """Return (least, greatest) projection [px] of the first `count` corners onto the unit vector (nx, ny)."""
     low, high = math.inf, -math.inf
     for k in range(count):
         low = min(low, nx * corners[k, 0] + ny * corners[k, 1])
@@ -659,8 +659,7 @@ def extent_along(corners, count, nx, ny):
 def path_misses(a, b, allowed, vx, vy):
     """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    The caller then drops the predicted contact. Its normal would be fixed for the whole step, so that it would deflect
-    B while B passes.
+    If it never does, the caller drops the predicted contact: its normal, fixed for the whole step, would deflect B.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -673,11 +672,11 @@ def path_misses(a, b, allowed, vx, vy):
 def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners each (SAT, clipping). Return the number of points.
 
-    bias [px]: B has the reference face only if its greatest face separation exceeds that of A by more than this. So the
-    reference does not alternate between equal faces. deepest [px]: a deeper overlap is left to a neighbouring part, if
-    that part covers an edge behind which the overlap is less deep. Then 0 is returned and manifold_out[0] is
-    COVERED_OVERLAP. If the separation exceeds `margin` [px], 0 is returned. Both Hulls need their normals, see
-    write_normals. manifold_out (11,): see clip_edges. O(corners of A · corners of B).
+    margin [px]: a larger separation gives no points. bias [px]: B has the reference face only if its greatest face
+    separation exceeds that of A by more than `bias`, so the reference does not alternate between equal faces. deepest
+    [px]: an overlap deeper than this gives no points if it is less deep behind an edge that a neighbouring part covers.
+    Then manifold_out[0] is COVERED_OVERLAP. Both Hulls need edge normals, see write_normals. manifold_out (11,): format
+    in clip_edges. O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b
@@ -747,9 +746,9 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """Collide a line segment with a disc. Return (nx, ny, px, py, separation, feature) [px].
+    """Collide a line segment with a disc. Return (nx, ny, px, py, separation, feature); lengths in px.
 
-    The normal points to the disc; px, py: nearest point of the segment. The segment leads from (ax, ay) to (bx, by).
+    nx, ny: unit normal to the disc; px, py: nearest point of the segment. The segment leads from (ax, ay) to (bx, by).
     feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start, CIRCLE_CORNER + 1 for its end. If the centre
     of the disc is on the segment, the normal of side 0 is used.
     """
@@ -776,10 +775,11 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
 
 @subkernel
 def collide_hull_circle(hull, x, y, radius):
-    """Collide a Hull of two or more corners with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
+    """Collide a Hull of two or more corners with a disc. Return (found, nx, ny, px, py, separation, feature).
 
-    The normal points from hull to disc; px, py: contact point, midway between the surfaces. Edges that are not
-    touchable, and a centre inside the Hull, are treated as in collide_polygon_circle.
+    found: whether there is a contact; nx, ny: unit normal from hull to disc; px, py [px]: contact point, midway between
+    the surfaces. x, y, radius [px]: centre and radius of the disc. Edges that are not touchable, and a disc whose
+    centre is inside the Hull, are treated as in collide_polygon_circle.
     """
     corners = hull.corners
     rounding = hull.radius

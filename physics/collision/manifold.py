@@ -1,4 +1,4 @@
-"""CONTACT rows: how the narrow phase writes and sorts them, mixed materials, and conversion for reports."""
+"""CONTACT rows: functions that write, sort and report them, mix materials, and run the passes over candidate pairs."""
 
 import math
 from collections.abc import Callable
@@ -31,7 +31,7 @@ def are_whole(manifolds):
 
 
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (CONTACT rows that name whole shapes instead of their parts, index in `manifolds` of each of them).
+    """Return (CONTACT rows that name whole shapes instead of their parts, index in `manifolds` of each row).
 
     The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. If no contact is with a
     part, the result is (`manifolds` itself, None).
@@ -62,9 +62,10 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 def mixed(geometry, a, b, manifold):
     """Return the mixed material of a contact: (friction, restitution, rolling resistance [px], surface speed [px/s]).
 
-    a, b: SHAPE rows; manifold: CONTACT row, whose feature id names the link of a chain, because each link may have its
-    own material. Friction is the geometric mean, restitution and rolling resistance are the greater value, surface
-    speed is the sum. Rolling resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
+    Friction is the geometric mean of both shapes, restitution and rolling resistance are the greater value, surface
+    speed is the sum. Rolling resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1). a,
+    b: SHAPE rows; manifold: CONTACT row, whose feature id names the link of a chain, because each link may have its own
+    material.
     """
     friction = 1.0
     restitution = 0.0
@@ -106,7 +107,7 @@ POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls
 
 
 class Batch(NamedTuple):
-    """The input of a pass over the candidate pairs of the broad phase."""
+    """Input of a pass over the candidate pairs of the broad phase."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -137,7 +138,7 @@ class Workspace(NamedTuple):
 
 
 def new_workspace() -> Workspace:
-    """Return a new Workspace, without room for candidates."""
+    """Return a new Workspace whose arrays for candidate pairs are empty."""
     return Workspace(
         np.zeros((16, 4)),
         np.zeros((16, 4)),
@@ -153,15 +154,15 @@ def new_workspace() -> Workspace:
 
 
 def empty_hulls(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return (Workspace.hulls, Workspace.hull_rows) with room for `count` hulls, a power of two, and without hulls."""
+    """Return new arrays (Workspace.hulls, Workspace.hull_rows) for `count` hulls (a power of two), without hulls."""
     return np.zeros((16 * count, 4)), np.full((count, 2), -1)
 
 
 @subkernel
 def queue_fallback(pair, fallback_inout):
-    """Queue a candidate pair (index) for the deep-penetration fallback of mask_parts.py.
+    """Append a candidate pair (index) to the queue of the deep-penetration fallback of mask_parts.py.
 
-    fallback_inout: number of queued candidates, then their indices.
+    fallback_inout: number of queued pairs, followed by their indices.
     """
     fallback_inout[0] += 1
     fallback_inout[fallback_inout[0]] = pair
@@ -169,7 +170,10 @@ def queue_fallback(pair, fallback_inout):
 
 @subkernel
 def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
-    """Start a new CONTACT row for candidate number `pair`, with the normal (nx, ny) but without points."""
+    """Initialize a CONTACT row for candidate number `pair`, with the normal (nx, ny) and no points.
+
+    shapes: SHAPE table; candidates: pairs of row numbers in it; manifold_out: the CONTACT row.
+    """
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
     a, b = shapes[row_a], shapes[row_b]
@@ -194,11 +198,12 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
-    """Append a contact with one point. Return the new number of contacts, which is counted on past the capacity.
+    """Append a contact with one point to manifolds_out. Return the new number of contacts.
 
-    pair: index of the candidate; point: (unit normal x and y from A to B, x, y, separation [px], shared area [px2],
-    feature); found: number of contacts before. The approach speed is written later, by `approach`. manifolds_out:
-    CONTACT rows.
+    If manifolds_out is full, nothing is written, but the number still grows, so the caller sees the size needed. pair:
+    index of the candidate; point: (unit normal x and y from A to B, x, y, separation [px], shared area [px2], feature
+    id); found: number of contacts before. The approach speed is written later, by `approach`. manifolds_out: CONTACT
+    rows.
     """
     if found < len(manifolds_out):
         nx, ny, x, y, separation, area, feature = point
@@ -217,7 +222,7 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
     """Add a point to the last contact if it has one point and the same pair and normal, else append a new contact.
 
-    Arguments as in add_manifold. Return the number of contacts, which is counted on past the capacity.
+    Return the new number of contacts, which may exceed the capacity of manifolds_out. Arguments as in add_manifold.
     """
     nx, ny, x, y, separation, area, feature = point
     if 0 < found <= len(manifolds_out):
@@ -234,9 +239,9 @@ def add_point(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, found):
-    """Append the manifold in `points` (11,), see hulls.clip_edges. Return the new number of contacts.
+    """Append a contact with the manifold `points` (11,), format in hulls.clip_edges. Return the new number of contacts.
 
-    sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids; pair, found: see
+    sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids; pair, found: as in
     add_manifold. manifolds_out: CONTACT rows.
     """
     for k in range(int(points[0])):
@@ -263,7 +268,7 @@ def circle_at(bodies, shapes, row):
 
 @inlined
 def hull_with(shape, corners, count):
-    """Return the Hull of a SHAPE row whose corners have been placed. count: number of corners."""
+    """Return the Hull of a SHAPE row from its world corners. count: number of corners."""
     return Hull(corners, count, 0.0 if shape.kind == BOUNDS else shape.radius, ALL_EDGES ^ shape.inner)
 
 
@@ -271,7 +276,7 @@ def hull_with(shape, corners, count):
 def hull_of(geometry, bodies, shapes, row, corners_out):
     """Return the Hull of a shape in the world. A BOUNDS has the corners of its AABB, a CIRCLE has one corner.
 
-    row: row number in SHAPE; corners_out (16, 4) receives the corners [px] and normals, see hulls.write_normals.
+    row: row number in SHAPE; corners_out (16, 4) receives the corners [px] and edge normals, see hulls.write_normals.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -290,10 +295,10 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def hull_in(batch, row, workspace):
-    """Return the Hull of a shape in the world, which is placed once in a pass for all of its pairs.
+    """Return the Hull, in the world, of a shape with two or more corners. It is cached for all pairs of a pass.
 
-    The shape has two or more corners. row: row number in SHAPE. Two shapes may share a place in workspace.hulls: the
-    Hull of one is valid until that of the other is placed. batch: see Batch.
+    row: row number in SHAPE. The cache is direct-mapped: two shapes may have the same slot of workspace.hulls, and the
+    second one overwrites the Hull of the first. batch: see Batch.
     """
     place = row & (len(workspace.hull_rows) - 1)
     corners = workspace.hulls[16 * place : 16 * place + 16]
@@ -322,7 +327,7 @@ def hulls_in(batch, row_a, row_b, workspace):
 
 @inlined
 def always(batch, pair):
-    """Return True. As the argument may_touch of make_pass it selects every pair of the kind."""
+    """Return True: the test `may_touch` of a pass that collides every pair of its kind, see make_pass."""
     return True
 
 
@@ -330,17 +335,17 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
     """Return a kernel that tests all candidate pairs of one kind.
 
     collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the contacts of candidate number
-    `pair` at row `found`, and returns the new number of contacts. may_touch(batch, pair) is a cheap test that selects
-    the pairs for collide_pair. It is called without branches for a block of pairs before the selected ones are
-    collided, which avoids branch mispredictions. Both functions must be inlined: passing a whole Batch to a call costs
-    more than a test of two circles.
+    `pair` at row `found`, and returns the new number of contacts. work_inout: counters of work done. may_touch(batch,
+    pair) is a cheap test that selects pairs. It is called without branches for a block of pairs, then the selected
+    pairs are collided; this avoids branch mispredictions. Both functions must be inlined: passing a whole Batch to a
+    call costs more than a test of two circles.
     """
 
     @kernel
     def collide_pairs(batch, workspace, manifolds_out, found, work_inout):
         """Append the contacts of all pairs of this kind at row `found`. Return the new number of contacts.
 
-        Arguments: see make_pass. O(candidates).
+        Arguments: as of collide_pair in make_pass. O(candidates).
         """
         kinds = batch.kinds
         block = workspace.block
@@ -359,9 +364,10 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 
 @inlined
 def sides_by_kind(batch, pair, kind):
-    """Return (sign, row number of the pair's shape of this kind, row number of the other shape).
+    """Return (sign, row number of the pair's shape of the given kind, row number of its other shape).
 
-    sign: 1.0 if the shape of this kind is A, -1.0 if it is B. pair: index of the candidate; batch: see manifold.Batch.
+    sign: 1.0 if the shape of this kind is A, -1.0 if it is B. The row numbers are in SHAPE. pair: index of the
+    candidate; batch: a Batch.
     """
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
@@ -376,15 +382,15 @@ def sides_by_kind(batch, pair, kind):
 
 @subkernel
 def copy_manifold(contacts, source, target, contacts_out):
-    """Copy row `source` of contacts to row `target` of contacts_out, without the fields of the contact cache."""
+    """Copy row `source` of `contacts` to row `target` of contacts_out, except the fields of the contact cache."""
     copy_head(contacts[source], contacts_out[target], MANIFOLD_BYTES)
 
 
 @subkernel
 def drop_empty(count, manifolds_inout):
-    """Remove the contacts without points from the first `count` rows. Return the number of contacts left.
+    """Remove the contacts without points from the first `count` rows. Return the number of remaining contacts.
 
-    The others keep their order. O(count). manifolds_inout: CONTACT rows.
+    The remaining contacts are moved to the front and keep their order. O(count). manifolds_inout: CONTACT rows.
     """
     kept = 0
     for i in range(count):
@@ -397,13 +403,13 @@ def drop_empty(count, manifolds_inout):
 
 @subkernel
 def is_before(contact, shape_a, shape_b):
-    """Return whether a CONTACT row sorts before the rows of the pair of shapes with the ids shape_a and shape_b."""
+    """Return whether a CONTACT row sorts before the rows of the shape pair (shape_a, shape_b), which are shape ids."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
 
 
 @subkernel
 def is_of(contact, shape_a, shape_b):
-    """Return whether a CONTACT row belongs to the pair of shapes with the ids shape_a and shape_b."""
+    """Return whether a CONTACT row belongs to the shape pair (shape_a, shape_b), which are shape ids."""
     return contact.shape_a == shape_a and contact.shape_b == shape_b
 
 
@@ -495,7 +501,7 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of three speeds: those of both bodies, and the one that center_velocity returns.
+    """Return an upper bound [px/s] of the speeds of two bodies and of the relative speed that center_velocity returns.
 
     a, b: BODY rows.
     """
@@ -509,7 +515,7 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
     """Return the approach speed [px/s] of two bodies along the normal at a contact point; negative if they separate.
 
     a, b: BODY rows; x, y [px]: the point; nx, ny: unit normal from A to B; tangential [px]: distance that B slides
-    along (-ny, nx) before a predicted contact.
+    along (-ny, nx) until a predicted contact, 0 otherwise.
     """
     ax, ay = x - a.center_x, y - a.center_y
     bx, by = x - b.center_x + tangential * ny, y - b.center_y - tangential * nx
@@ -520,7 +526,10 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 
 @inlined
 def approach(a, b, manifold_inout):
-    """Write the approach speed [px/s] of each point of a CONTACT row, before any response. a, b: BODY rows."""
+    """Write the approach speed [px/s] of each point of a CONTACT row, before the solver changes velocities.
+
+    a, b: BODY rows of the two bodies.
+    """
     m = manifold_inout
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:
@@ -529,7 +538,7 @@ def approach(a, b, manifold_inout):
 
 @kernel
 def measure_approach(bodies, manifolds_inout):
-    """Write the approach speed [px/s] of each point of all CONTACT rows, before any response. O(contacts)."""
+    """Write the approach speed [px/s] of every point of the CONTACT rows, before the solver runs. O(contacts)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         approach(bodies[m.body_row_a], bodies[m.body_row_b], m)

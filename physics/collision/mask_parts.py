@@ -1,4 +1,4 @@
-"""Deep-penetration fallback for shapes made of convex parts: a single direction that separates all parts."""
+"""Deep-penetration fallback for shapes made of convex parts: finds a single direction that separates all parts."""
 
 import math
 
@@ -26,11 +26,11 @@ ALONG = 0.5  # least cosine between directions that count as the same
 
 @subkernel
 def write_faces(hull, other, sign, first, faces_out):
-    """Write the faces of a Hull to faces_out, from row `first` on. Return the row after the last face.
+    """Write one row to faces_out for each edge of a Hull, from row `first` on. Return the row after the last one.
 
-    A face is an edge with its normal; a disc has none. other: the overlapping Hull, whose depth behind each face is
-    written; sign: 1.0 if `hull` belongs to A, -1.0 if it belongs to B; faces_out (any, 4): columns DIRECTION_X,
-    DIRECTION_Y, DEPTH, MAY_PUSH.
+    A disc has no edge. faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y (unit normal from A to B), DEPTH (depth
+    [px] of `other` behind the edge), MAY_PUSH (1.0 if the edge is touchable). other: the overlapping Hull; sign: 1.0 if
+    `hull` belongs to shape A, -1.0 if it belongs to B.
     """
     if hull.count == 1:
         return first
@@ -50,9 +50,10 @@ def write_faces(hull, other, sign, first, faces_out):
 
 @subkernel
 def translation_along(faces, starts, count, nx, ny):
-    """Return how far [px] B must move along the unit vector (nx, ny) to leave all overlapping parts of A. O(faces).
+    """Return the distance [px] that B must move along the unit vector (nx, ny) to leave all overlapping parts of A.
 
-    faces (any, 4): see write_faces; starts (count + 1,): first face of each of the `count` overlapping pairs of parts.
+    O(faces). faces (any, 4): rows of write_faces; starts (count + 1,): first row in `faces` of each pair of parts;
+    count: number of overlapping pairs of parts.
     """
     longest = 0.0
     for part in range(count):
@@ -69,9 +70,9 @@ def translation_along(faces, starts, count, nx, ny):
 def minimum_translation(faces, starts, count, last_x, last_y):
     """Find the face along whose normal B leaves all parts of A with the shortest move.
 
-    Return (index of the pair of parts, row of the face), or (-1, -1) if no face may push. Normals within 60 degrees of
-    the unit vector (last_x, last_y) are preferred; (0, 0) means no preference. Other arguments as in translation_along.
-    O(faces²).
+    Return (index of the face's pair of parts, row in `faces`), or (-1, -1) if no face may push. Normals within 60
+    degrees of the unit vector (last_x, last_y) are preferred; (0, 0) means no preference. faces, starts, count: as in
+    translation_along. O(faces²).
     """
     best = -1
     best_part = -1
@@ -99,8 +100,8 @@ def minimum_translation(faces, starts, count, last_x, last_y):
 def face_manifold(a, edge, b, flipped, margin, manifold_out):
     """Write the manifold of two overlapping Hulls with an edge of `a` as the reference, for an overlap of any depth.
 
-    edge: index of the edge; flipped: True if `a` is shape B of the pair; margin [px]: largest separation of a point;
-    manifold_out (11,): see hulls.clip_edges.
+    edge: index of the edge; flipped: True if `a` is shape B of the pair; margin [px]: points with a larger separation
+    are dropped; manifold_out (11,): format in hulls.clip_edges.
     """
     count = 0
     if b.count > 1:
@@ -124,9 +125,10 @@ def hulls_of_pair(batch, pair, workspace):
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
     """Write the contact that pushes shape B out of shape A by the shortest translation.
 
-    Return 1, or 0 if no such contact exists. pairs: indices of the candidates whose sides are overlapping parts of A
-    and B; last_x, last_y: unit normal of the last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs,
-    4): scratch. O(faces²). manifolds_out: CONTACT rows; batch: see manifold.Batch. workspace: scratch memory.
+    Return the number of contacts written: 1, or 0 if no face may push. pairs: indices of candidate pairs of overlapping
+    parts of the two shapes; last_x, last_y: unit normal of the last step, which is preferred, or (0, 0); starts_out
+    (pairs + 1,), faces_out (FACES · pairs, 4): scratch; manifolds_out: CONTACT rows. O(faces²). batch: a
+    manifold.Batch; workspace: scratch memory.
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -168,9 +170,10 @@ def depth_of(manifold):
 
 @kernel
 def find_deep(bodies, manifolds, count, deep, flags_out):
-    """Flag contacts of parts that are deeper than `deep` [px], if at least one body is dynamic. Return their number.
+    """Write to flags_out whether each contact is between parts, deeper than `deep` [px], and has a dynamic body.
 
-    manifolds: CONTACT rows, of which the first `count` are in use; flags_out (count,) bool.
+    Return the number of such contacts. manifolds: CONTACT rows, of which the first `count` are in use; flags_out
+    (count,) bool.
     """
     found = 0
     for i in range(count):
@@ -186,10 +189,10 @@ def find_deep(bodies, manifolds, count, deep, flags_out):
 
 @kernel
 def drop_opposed_rows(order, deep, manifolds_inout):
-    """Drop each deep contact if a shallower contact of the same two shapes has an opposite normal.
+    """Drop each deep contact if a contact of the same two shapes is no deeper and has an opposite normal.
 
-    The remaining contacts are moved to the front. Return their number. order: row numbers of the contacts, sorted by
-    the ids of the whole shapes; deep (contacts,) bool: flags of find_deep. O(contacts · contacts of a pair).
+    The remaining contacts are moved to the front; return their number. order: row numbers of the contacts, sorted by
+    the ids of the whole shapes; deep (contacts,) bool: flags written by find_deep. O(contacts · contacts of a pair).
     manifolds_inout: CONTACT rows.
     """
     first = 0
@@ -221,9 +224,9 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
     """Drop each contact of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
-    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides of the notch. With
-    this rule the nearer side pushes the body out. manifolds: CONTACT rows, of which the first `count` are in use; flags
-    (count,): scratch. Return the number of remaining contacts.
+    Return the number of remaining contacts. With this rule, the nearer wall of a notch pushes a body out that is wider
+    than the notch; otherwise both walls would squeeze it. manifolds: CONTACT rows, of which the first `count` are in
+    use; flags (count,): scratch.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -232,12 +235,12 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 
 
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
-    """Return additional CONTACT rows, at most one for each pair of shapes with parts in the fallback queue.
+    """Return additional CONTACT rows, at most one for each pair of whole shapes that has parts in the fallback queue.
 
-    A pair gets one if it has no overlapping contact. It also gets one if its contacts are deeper than the margin,
-    because these may push along a wall instead of out of it. found: contacts of this step; previous: contacts of the
-    last step, whose normals are preferred so that the direction of the push does not alternate; batch: see
-    manifold.Batch. workspace: scratch memory.
+    A pair of shapes gets a row if none of its contacts overlap, or if an overlap is deeper than batch.margin, because
+    such contacts may push along a wall instead of out of it. found: CONTACT rows of this step; previous: CONTACT rows
+    of the last step, whose normals are preferred so that the push does not alternate in direction; batch: a
+    manifold.Batch; workspace: scratch memory with the queue.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])
@@ -271,9 +274,9 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 
 
 def _pair_keys(shapes, pairs):
-    """Return an integer key (n,) for each pair of shapes, equal for all pairs of parts of the same two whole shapes.
+    """Return an integer key (n,) for each pair of shapes; pairs of parts of the same two whole shapes have equal keys.
 
-    pairs (n, 2): row numbers in SHAPE. The keys have the same order as the rows of the whole shapes.
+    pairs (n, 2): row numbers in SHAPE. The keys sort like the row numbers of the whole shapes.
     """
     owners = rows_of(shapes, shapes["parent"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]
@@ -282,8 +285,8 @@ def _pair_keys(shapes, pairs):
 def _is_found(manifold, found) -> bool:
     """Return whether `found` contains a contact of the same candidate as `manifold`, with nearly the same normal.
 
-    All are CONTACT rows. The normals may differ slightly, because a contact kept from the last step has rotated with
-    its body.
+    Both arguments are CONTACT rows. The normals may differ slightly, because a contact that is reused from the last
+    step has rotated with its body.
     """
     same = found["candidate"] == manifold["candidate"]
     along = found["normal_x"] * manifold["normal_x"] + found["normal_y"] * manifold["normal_y"]

@@ -1,4 +1,4 @@
-"""Collision of masks drawn on whole pixels (snap=True): with other masks, by AND of their bit words, and with hulls."""
+"""Collision of masks drawn on whole pixels (snap=True) with hulls, and with each other by AND of their bit words."""
 
 import math
 from collections.abc import Callable
@@ -36,9 +36,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Return the unit vector from the centre of A's solid bounds to the centre of B's; (1, 0) if they coincide.
+    """Return the unit vector from the centre of A's solid pixels to the centre of B's; (1, 0) if the centres coincide.
 
-    a, b: RASTER rows; dx, dy [px]: offset of B's top left corner from A's.
+    Each centre is that of the bounding box of the solid pixels. a, b: RASTER rows; dx, dy [px]: offset of B's top left
+    corner from A's.
     """
     x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
     y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)
@@ -52,7 +53,7 @@ def center_normal(a, b, dx, dy):
 def least_overlap(right, left, down, up):
     """Return the shortest move of B along an axis that separates two overlapping boxes, as (nx, ny, length [px]).
 
-    right, left, down, up [px]: length of the move that is needed in each direction.
+    nx, ny: unit vector of the move. right, left, down, up [px]: length of the move needed in each direction.
     """
     least = min(min(right, left), min(down, up))
     if least == up:
@@ -78,7 +79,7 @@ class RasterPair(NamedTuple):
 class Remainders(NamedTuple):
     """Fractions [px] in 0..1 that snapping, floor(position + 0.5), has cut off from the positions of masks A and B.
 
-    With these fractions a tested move is rounded to the same pixels as the real move will be.
+    With these fractions, a trial move is rounded to the same pixels as the real move would be.
     """
 
     ax: float
@@ -91,8 +92,8 @@ class Remainders(NamedTuple):
 def separation_along(pair, remainders, nx, ny, most):
     """Return the least whole number of pixels to move along the normal (nx, ny) that ends the overlap of two rasters.
 
-    pair: see RasterPair; remainders: see Remainders. The overlap must end if B moves along the normal, and also if A
-    moves against the normal. A result above `most` [px] means that no move up to `most` is enough.
+    The overlap must end if B moves along the normal, and also if A moves against the normal. A result above `most` [px]
+    means that no move up to `most` is enough. pair: RasterPair; remainders: Remainders of its masks.
     """
     rasters = pair.rasters
     words = pair.words
@@ -127,10 +128,11 @@ def separation_along(pair, remainders, nx, ny, most):
 
 @subkernel
 def mask_contact(pair, remainders):
-    """Return (area, x, y, nx, ny, separation) of a RasterPair that shares pixels. remainders: see Remainders.
+    """Return (area, x, y, nx, ny, separation) of a RasterPair that shares pixels.
 
-    The area is the number of shared pixels; x, y [px]: their centroid in A's raster. The normal points from A to B. The
-    separation [px] is negative: minus the length of the move along the normal that ends the overlap.
+    area: number of shared pixels; x, y [px]: centroid of these pixels in A's raster; nx, ny: unit normal from A to B;
+    separation [px]: minus the length of the move along the normal that ends the overlap. remainders: Remainders of the
+    masks.
     """
     rasters = pair.rasters
     words = pair.words
@@ -177,10 +179,10 @@ def mask_contact(pair, remainders):
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """Return (first, last + 1): the indices of the pixels that overlap the open interval low..high on one axis.
+    """Return (first, last + 1): the indices of the pixels on one axis that overlap the open interval low..high.
 
-    low, high [px]: the interval, may be infinite; start [px]: position of pixel 0; set_low, set_high: range of indices
-    of the solid pixels, to which the result is limited.
+    low, high [px]: ends of the interval, may be infinite; start [px]: position of pixel 0. The result is limited to the
+    range set_low..set_high of the solid pixels.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -188,7 +190,7 @@ def pixel_range(low, high, start, set_low, set_high):
 
 
 class PlacedRaster(NamedTuple):
-    """A mask's raster, and the position of its top left corner in the coordinates of the other shape."""
+    """A mask's raster, and the position of its top left corner in the coordinate system of the other shape."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
@@ -212,7 +214,10 @@ def hull_bounds(hull):
 
 @subkernel
 def pixels_under(raster, hull):
-    """Return (first column, last column + 1, first row, last row + 1) of a PlacedRaster's pixels in a Hull's AABB."""
+    """Return (first column, last column + 1, first row, last row + 1) of the pixels of a PlacedRaster in a Hull's AABB.
+
+    The ranges are limited to the bounding box of the solid pixels.
+    """
     r = raster.rasters[raster.row]
     min_x, min_y, max_x, max_y = hull_bounds(hull)
     first_x, last_x = pixel_range(min_x, max_x, raster.left, r.set_left, r.set_right)
@@ -257,9 +262,9 @@ def make_pixel_sum(touches: Callable) -> Any:
 
 @inlined
 def square_in_disc(hull, x, y, depths_out):
-    """Return whether the unit square with top left corner (x, y) shares area with a disc, a Hull of one corner.
+    """Return whether the unit square with top left corner (x, y) shares area with a disc (a Hull of one corner).
 
-    depths_out is not used; it is there for make_pixel_sum.
+    depths_out is not used; make_pixel_sum requires the argument.
     """
     beside = max(max(x - hull.corners[0, 0], hull.corners[0, 0] - (x + 1.0)), 0.0)
     above = max(max(y - hull.corners[0, 1], hull.corners[0, 1] - (y + 1.0)), 0.0)
@@ -270,8 +275,8 @@ def square_in_disc(hull, x, y, depths_out):
 def square_exit_distance(x, y, nx, ny, radius):
     """Return the distance [px] that a disc at the origin must move along (nx, ny) to leave a unit square.
 
-    x, y: top left corner of the square. The disc has left when its centre has left the square grown by the radius,
-    through a rounded corner or a straight side.
+    x, y: top left corner of the square; nx, ny: unit vector; radius [px]: radius of the disc. The result is the
+    distance at which the disc's centre leaves the square grown by the radius (with rounded corners).
     """
     depth = 0.0
     for corner in range(4):
@@ -297,9 +302,10 @@ sum_pixels_in_disc = make_pixel_sum(square_in_disc)
 def collide_mask_circle(raster, hull, depths_out):
     """Collide a PlacedRaster with a disc (Hull of one corner). Return (area, nx, ny, x, y, separation, feature).
 
-    The area is the number of overlapping pixels; 0 means no contact. The normal points from mask to disc; x, y [px]:
-    centroid of these pixels; feature: pixel_feature of the first. The separation [px] is minus the length of the disc's
-    move along the normal that clears all pixels. O(pixels in the disc's AABB). depths_out (16,): scratch.
+    area: number of overlapping pixels, 0 for no contact; nx, ny: unit normal from mask to disc; x, y [px]: centroid of
+    the overlapping pixels; separation [px]: minus the length of the disc's move along the normal that clears all
+    pixels; feature: pixel_feature of the first overlapping pixel. O(pixels in the disc's AABB). depths_out (16,):
+    scratch.
     """
     r = raster.rasters[raster.row]
     cx = hull.corners[0, 0]
@@ -321,9 +327,9 @@ def collide_mask_circle(raster, hull, depths_out):
 
 @subkernel
 def offset_line(points, front, back, corners_out):
-    """Write the corners (4 rows) of a rectangle: the line from points[0] to points[1], widened to both sides.
+    """Write the 4 corners of a rectangle: the line from points[0] to points[1], widened to both sides.
 
-    front, back [px]: width in front of the line (towards its normal (dy, -dx)) and behind it.
+    front, back [px]: width in front of the line (towards its normal (dy, -dx)) and behind the line.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
@@ -335,7 +341,7 @@ def offset_line(points, front, back, corners_out):
 
 @subkernel
 def square_in_polygon(corners, count, x, y):
-    """Return whether the unit square with its top left corner at x, y shares area with a convex polygon (SAT)."""
+    """Return whether the unit square with top left corner (x, y) shares area with a convex polygon (SAT)."""
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
     for k in range(count):
@@ -354,10 +360,10 @@ def square_in_polygon(corners, count, x, y):
 
 @inlined
 def square_depths(hull, x, y, depths_out):
-    """Return whether the unit square at (x, y) shares area with a convex polygon, and record how deep it is in it.
+    """Return whether the unit square with top left corner (x, y) shares area with a convex polygon.
 
-    hull: the polygon; depths_out (16,): for each of its edges, the greatest depth [px] behind this edge of all squares
-    so far.
+    The square's depths are added to depths_out. hull: the polygon; depths_out (16,): for each edge of the polygon, the
+    greatest depth [px] behind the edge of all squares tested so far.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
@@ -377,8 +383,9 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 def collide_mask_polygon(raster, hull, depths_out):
     """Collide a PlacedRaster with a polygon (Hull without rounding). Return (area, nx, ny, x, y, separation, feature).
 
-    The normal is opposite to that of one touchable edge: the edge behind which the overlapping pixels are least deep.
-    The separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,): scratch.
+    The reference is the touchable edge of the polygon behind which the overlapping pixels are least deep. The normal is
+    opposite to the normal of this edge, and the separation is minus this depth [px]. Other values as in
+    collide_mask_circle. depths_out (16,): scratch.
     """
     count = hull.count
     for k in range(count):
@@ -400,11 +407,12 @@ def collide_mask_polygon(raster, hull, depths_out):
 
 @subkernel
 def border_pixels(raster, line, low, high, level):
-    """Find the places where a border between two rows or columns of pixels has solid pixels on both sides.
+    """Find the positions where a border between two rows or columns of pixels has solid pixels on both sides.
 
-    raster: PlacedRaster; line: index of the row or column after the border; level: True for a border between rows,
-    False for one between columns; low, high [px]: open interval along the border, from the raster's corner. Return
-    (number of places, sum of their positions [px] along the border, pixel_feature of the first or -1).
+    Return (number of positions, sum of the positions [px] along the border, pixel_feature of the first or -1). raster:
+    PlacedRaster; line: index of the row or column after the border; level: True for a border between rows, False for
+    one between columns; low, high [px]: open interval along the border to search, relative to the raster's top left
+    corner.
     """
     words = raster.words
     r = raster.rasters[raster.row]
@@ -434,9 +442,10 @@ def border_pixels(raster, line, low, high, level):
 def collide_mask_line(raster, hull, depths_out):
     """Collide a PlacedRaster with a line segment (Hull of two corners).
 
-    Return (area, nx, ny, x, y, separation, feature). The line is solid from both sides. It touches the mask where it
-    crosses a solid pixel, or lies on the border between two solid pixels. On a border the normal points away from the
-    middle of the mask, and the separation is -1. Other values as in collide_mask_polygon. depths_out (16,): scratch.
+    Return (area, nx, ny, x, y, separation, feature). The line is solid from both sides. It touches the mask if it
+    crosses a solid pixel, or if it is exactly on the border between two solid pixels. On such a border the normal
+    points away from the middle of the mask, and the separation is -1. Other values as in collide_mask_polygon.
+    depths_out (16,): scratch.
     """
     points = hull.corners
     left, top = raster.left, raster.top
@@ -468,7 +477,11 @@ def collide_mask_line(raster, hull, depths_out):
 
 @subkernel
 def square_distance(corners, count, x, y):
-    """Return the distance [px] of a hull's core from the unit square with top left corner x, y; 0 if they overlap."""
+    """Return the distance [px] of a convex polygon from the unit square with top left corner (x, y); 0 if they overlap.
+
+    corners, count: corners [px] of the polygon and their number; the polygon may be a hull's core (without the
+    rounding).
+    """
     if square_in_polygon(corners, count, x, y):
         return 0.0
     gap = math.inf
@@ -489,7 +502,7 @@ def square_distance(corners, count, x, y):
 def square_in_rounded(hull, x, y, depths_out):
     """Return whether the unit square with top left corner (x, y) shares area with a rounded hull.
 
-    depths_out is not used; it is there for make_pixel_sum.
+    depths_out is not used; make_pixel_sum requires the argument.
     """
     return square_distance(hull.corners, hull.count, x, y) < hull.radius
 
@@ -514,8 +527,8 @@ def direction_to_core(corners, count, x, y):
 def depth_along(raster, hull, nx, ny):
     """Return the distance [px] that a rounded hull must move along the unit vector (nx, ny) to leave a mask.
 
-    It has left when a line perpendicular to (nx, ny) separates it from all pixels that it overlaps now. raster:
-    PlacedRaster.
+    After this move, a line perpendicular to (nx, ny) separates the hull from all pixels that it overlaps now. raster:
+    PlacedRaster of the mask.
     """
     r = raster.rasters[raster.row]
     least, _ = extent_along(hull.corners, hull.count, nx, ny)
@@ -539,10 +552,10 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 def collide_mask_rounded(raster, hull, depths_out):
     """Collide a PlacedRaster with a rounded Hull of two or more corners.
 
-    Return (area, nx, ny, x, y, separation, feature). The normal is opposite to that of a face, or points from the
-    centroid of the overlapping pixels to the hull's core. Of these directions, the one with the shortest move that
-    clears the pixels is used. The separation is minus this move. Other values as in collide_mask_circle. O(pixels in
-    the hull's AABB · corners). depths_out (16,): scratch.
+    Return (area, nx, ny, x, y, separation, feature). Candidates for the normal are the inverted face normals, and the
+    direction from the centroid of the overlapping pixels to the hull's core. The one with the shortest move that clears
+    the pixels is used. The separation is minus the length of this move [px]. Other values as in collide_mask_circle.
+    O(pixels in the hull's AABB · corners). depths_out (16,): scratch.
     """
     corners = hull.corners
     count = hull.count
@@ -566,9 +579,9 @@ def collide_mask_rounded(raster, hull, depths_out):
 
 @subkernel
 def collide_mask_hull(raster, hull, depths_out):
-    """Collide a PlacedRaster with any Hull. Return (area, nx, ny, x, y, separation, feature), see collide_mask_circle.
+    """Collide a PlacedRaster with any Hull. Return (area, nx, ny, x, y, separation, feature).
 
-    depths_out (16,): scratch.
+    The values are those of collide_mask_circle. depths_out (16,): scratch.
     """
     if hull.count == 1:
         return collide_mask_circle(raster, hull, depths_out)
@@ -585,9 +598,9 @@ def collide_mask_hull(raster, hull, depths_out):
 
 @inlined
 def bounds_overlap(batch, pair):
-    """Return whether the bounds of the solid pixels of two masks overlap, both drawn on whole pixels (snap=True).
+    """Return whether the bounding boxes of the solid pixels of two masks drawn on whole pixels (snap=True) overlap.
 
-    pair: index of the candidate; batch: see manifold.Batch.
+    pair: index of the candidate; batch: a manifold.Batch.
     """
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]
@@ -599,15 +612,15 @@ def bounds_overlap(batch, pair):
 def make_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of masks drawn on whole pixels (snap=True).
 
-    full: True to compute area, centroid, normal and depth. False to find only the first shared pixel; then the normal
-    is the direction between the centres, and the separation is -1.
+    full: True to compute area, centroid, normal and depth; False to find only the first shared pixel. If False, the
+    normal is the direction between the centres of the masks, and the separation is -1.
     """
 
     @inlined
     def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two masks drawn on whole pixels, by AND of bit words.
+        """Append the contact of candidate number `pair`, two masks drawn on whole pixels, by AND of their bit words.
 
-        Arguments: see manifold.make_pass. Return the new number of contacts.
+        Return the new number of contacts. Arguments: see manifold.make_pass.
         """
         shapes = batch.shapes
         candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words

@@ -40,7 +40,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def arc_at(corners, count, k):
-    """Return (start, end) [rad] of the arc around corner k of a rounded hull, between the normals of its two edges."""
+    """Return (start, end) [rad] of the arc around corner k of a rounded hull: from the normal of one edge to the next.
+
+    corners, count: corners [px] of the hull and their number. A hull of one corner has the full circle.
+    """
     if count == 1:
         return 0.0, math.tau
     ax, ay = edge_normal(corners, count, k - 1 if k > 0 else count - 1)
@@ -53,7 +56,7 @@ def arc_at(corners, count, k):
 
 @subkernel
 def hull_share(hull, x, y, width, height):
-    """Return (area, first moment in x, first moment in y) of the overlap of a Hull and a box.
+    """Return (area [px2], first moment in x, first moment in y [px3]) of the overlap of a Hull and a box.
 
     x, y [px]: top left corner of the box, about which the moments are taken; width, height [px]: size of the box.
     O(corners).
@@ -89,9 +92,9 @@ def hull_share(hull, x, y, width, height):
 
 @subkernel
 def shared_with_hull(rasters, words, mask, hull):
-    """Return (area [px2], first moment in x, first moment in y) of the overlap of a mask and a Hull.
+    """Return (area [px2], first moment in x, first moment in y [px3]) of the overlap of a mask and a Hull.
 
-    mask: row number in RASTER; the Hull is in the space of this raster, as are the moments. O(runs of solid pixels in
+    The Hull and the moments are in the raster space of the mask. mask: row number in RASTER. O(runs of solid pixels in
     the hull's AABB · corners).
     """
     r = rasters[mask]
@@ -125,9 +128,9 @@ def shared_with_hull(rasters, words, mask, hull):
 
 @subkernel
 def least_area(raster):
-    """Return the least area [px2] to report for an overlap with a mask. raster: RASTER row of the mask.
+    """Return the least area [px2] that is reported for an overlap with a mask. raster: RASTER row of the mask.
 
-    Rounding errors may make the computed area of a tiny overlap smaller, or even 0.
+    The computed area of a tiny overlap may be smaller, or even 0, because of rounding errors.
     """
     slack = ROUNDED * (raster.width + raster.height)
     return slack * slack
@@ -135,9 +138,9 @@ def least_area(raster):
 
 @subkernel
 def move_into_raster(raster, body, count, corners_inout):
-    """Transform the first `count` corners [px] from the world into the raster space of a mask at its exact pose.
+    """Transform the first `count` corners [px] from the world into the raster space of a mask.
 
-    raster: RASTER row of the mask, which has snap=False; body: its BODY row.
+    The mask is at its exact pose (snap=False). raster: RASTER row of the mask; body: BODY row of the mask.
     """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     for k in range(count):
@@ -150,8 +153,8 @@ def move_into_raster(raster, body, count, corners_inout):
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     """Return the Hull of shape `other` in the raster space of shape `mask`, a mask at its exact pose (snap=False).
 
-    mask, other: row numbers in SHAPE; corners_out (16, 2) receives the corners. The angles are subtracted before their
-    sine and cosine are computed, so that two bodies at multiples of 90 degrees stay exact.
+    mask, other: row numbers in SHAPE; corners_out (16, 2) receives the corners [px]. Sine and cosine are computed of
+    the difference of the two angles, so that the result is exact for bodies at multiples of 90 degrees.
     """
     s, o = shapes[mask], shapes[other]
     b = bodies[s.body_row]
@@ -178,7 +181,7 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
 def collide_in_raster(rasters, words, mask, hull, depths_out):
     """Collide a mask with a Hull in raster space. Return (area [px2], nx, ny, x, y, separation [px], feature).
 
-    The area is 0 without overlap. The normal points from mask to Hull; x, y: centroid of the overlap; feature:
+    The area is 0 without overlap. nx, ny: unit normal from mask to Hull; x, y [px]: centroid of the overlap; feature:
     pixel_feature of the first overlapping pixel. mask: row number in RASTER; hull: Hull in the space of this raster;
     depths_out (16,): scratch.
     """
@@ -196,7 +199,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 
 @subkernel
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
-    """Transform a normal and a point from a mask's raster space to the world. Return (nx, ny, x, y).
+    """Transform a normal (nx, ny) and a point (x, y) from a mask's raster space to the world. Return (nx, ny, x, y).
 
     body, shape: BODY and SHAPE rows of the mask, which is at its exact pose (snap=False).
     """
@@ -210,8 +213,8 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 def collide_as_drawn(geometry, shape, hull, depths_out):
     """Collide a mask drawn on whole pixels (snap=True) with a Hull. Return (area, nx, ny, x, y, separation, feature).
 
-    shape: SHAPE row of the mask; hull: the Hull in the world; depths_out (16,): scratch. The area is the number of
-    pixels that the Hull overlaps. Other values as in collide_in_raster, but in the world.
+    The area is the number of pixels that the Hull overlaps. The other values are those of collide_in_raster, in the
+    world. shape: SHAPE row of the mask; hull: the Hull in the world; depths_out (16,): scratch.
     """
     raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
@@ -222,8 +225,8 @@ def collide_as_drawn(geometry, shape, hull, depths_out):
 def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
     """Collide a mask, with any `snap`, with a convex polygon. Return (area, nx, ny, x, y, separation, feature).
 
-    The values are those of collide_in_raster, but in the world. body, shape: BODY and SHAPE rows of the mask; hull: the
-    polygon in the world; scratch (16, 2), depths_out (16,): scratch.
+    The values are those of collide_in_raster, in the world. body, shape: BODY and SHAPE rows of the mask; hull: the
+    polygon in the world; scratch (16, 2), depths_out (16,): scratch memory.
     """
     if shape.snap:
         return collide_as_drawn(geometry, shape, hull, depths_out)
@@ -242,8 +245,8 @@ def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
 def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
     """Collide a mask, with any `snap`, with a hull. Return (area, nx, ny, x, y, separation, feature).
 
-    The values are those of collide_in_raster, but in the world. mask, other: row numbers in SHAPE of the mask and of
-    the hull; workspace: scratch memory.
+    The values are those of collide_in_raster, in the world. mask, other: row numbers in SHAPE of the mask and of the
+    hull; workspace: scratch memory.
     """
     s = shapes[mask]
     if s.snap:
@@ -273,9 +276,9 @@ NOISE = 1e-9  # rounding error of area differences, as a share of the area, or o
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (nx, ny, whether the centres differ): the unit vector from the centre of A's AABB to that of B's.
+    """Return (nx, ny, differ): the unit vector from the centre of A's AABB to the centre of B's AABB.
 
-    a, b: SHAPE rows. Without a difference the vector is (1, 0).
+    differ: whether the centres differ. If they do not differ, the vector is (1, 0). a, b: SHAPE rows.
     """
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
@@ -284,10 +287,10 @@ def boxes_normal(a, b):
 
 @subkernel
 def area_normal(shares):
-    """Return (nx, ny, whether it exists): the direction of the move of B that shrinks the shared area fastest.
+    """Return (nx, ny, exists): the direction in which a move of B shrinks the shared area of two masks fastest.
 
-    nx, ny: unit vector in A's raster space. The direction does not exist if a move changes the area only by rounding.
-    shares: Shares of the two masks.
+    nx, ny: unit vector in A's raster space; exists: False if moves change the area only by rounding errors. shares:
+    Shares of the two masks.
     """
     nx, ny = unit(shares.loss_x, shares.loss_y, 1.0, 0.0)
     return nx, ny, norm(shares.loss_x, shares.loss_y) > NOISE * max(shares.area, 1.0)
@@ -295,10 +298,10 @@ def area_normal(shares):
 
 @subkernel
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
-    """Return how far [px] B must move along the world normal (nx, ny) to end the overlap of a SquaresPair.
+    """Return the distance [px] that B must move along the world normal (nx, ny) to end the overlap of a SquaresPair.
 
-    turn_cosine, turn_sine: cosine and sine of A's angle. A result above `most` [px] means that no move up to `most` is
-    enough.
+    A result above `most` [px] means that no move up to `most` is enough. turn_cosine, turn_sine: cosine and sine of A's
+    angle.
     """
     rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
     return squares_way_out(pair, rx, ry, most)
@@ -306,11 +309,11 @@ def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
 
 @subkernel
 def exact_contact(pair, a, b, turn_cosine, turn_sine):
-    """Return (area [px2], x, y, nx, ny, separation [px]) of two overlapping masks.
+    """Return (area [px2], x, y, nx, ny, separation [px]) of two overlapping masks A and B.
 
-    x, y: centroid of the overlap in A's raster space. The normal points from A to B in the world. The separation is
-    negative: minus the length of the move along the normal that ends the overlap. pair: SquaresPair of the masks; a, b:
-    their SHAPE rows; turn_cosine, turn_sine: cosine and sine of A's angle.
+    x, y: centroid of the overlap in A's raster space; nx, ny: unit normal from A to B in the world; separation: minus
+    the length of the move along the normal that ends the overlap. pair: SquaresPair of the masks; a, b: SHAPE rows of
+    the masks; turn_cosine, turn_sine: cosine and sine of A's angle.
     """
     shares = shared_squares(pair)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
@@ -351,9 +354,10 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether two masks are tested in A's raster space rather than in B's. a, b: SHAPE rows.
+    """Return whether two masks A and B are tested in A's raster space rather than in B's. a, b: SHAPE rows.
 
-    The space of the mask with snap=False is used. If both have it, it is the space of the mask with the greater area.
+    The raster space of the mask with snap=False is used. If both masks have snap=False, the one with the greater area
+    is used.
     """
     if a.snap or b.snap:
         return not a.snap
@@ -382,17 +386,17 @@ def exact_mask_area(geometry, bodies, a, b):
 
 
 def make_exact_mask_pass(full: bool) -> Any:
-    """Return the kernel that collides all pairs of masks of which at least one is at its exact pose (snap=False).
+    """Return the kernel that collides all pairs of masks with at least one mask at its exact pose (snap=False).
 
-    full: True to compute area, centroid, normal and depth. False to find only two overlapping pixels; then the normal
-    is the direction between the centres of the AABBs, and the separation is -1.
+    full: True to compute area, centroid, normal and depth; False to find only two overlapping pixels. If False, the
+    normal is the direction between the centres of the AABBs, and the separation is -1.
     """
 
     @inlined
     def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two masks at their exact poses. Return the new number of contacts.
+        """Append the contact of candidate number `pair`, two masks of which at least one is at its exact pose.
 
-        Arguments: see manifold.make_pass.
+        Return the new number of contacts. Arguments: see manifold.make_pass.
         """
         geometry, bodies, shapes, candidates = batch.geometry, batch.bodies, batch.shapes, batch.candidates
         rasters = geometry.rasters
@@ -435,7 +439,10 @@ collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
 
 @inlined
 def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a mask and a hull. Return the new number of contacts. Arguments: see manifold.make_pass."""
+    """Append the contact of candidate number `pair`, a mask and a hull. Return the new number of contacts.
+
+    Arguments: see manifold.make_pass.
+    """
     work_inout[MASK_TESTS] += 1
     sign, mask, other = sides_by_kind(batch, pair, MASK)
     area, nx, ny, x, y, separation, feature = collide_mask_shape(

@@ -1,4 +1,4 @@
-"""Narrow phase: contacts of the candidate pairs, one pass per kind of pair, and the stages that run it."""
+"""Narrow phase: computes the contacts of the candidate pairs in one pass per kind of pair, and runs as a stage."""
 
 import numpy as np
 
@@ -62,15 +62,18 @@ ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 @inlined
 def may_change(a, b):
-    """Return whether a step can change the contact of two BODY rows: one of them is active, or wakes the other."""
+    """Return whether a step can change the contact of two bodies: one of them is active, or wakes the other.
+
+    a, b: BODY rows.
+    """
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @inlined
 def is_wanted(which, a, b):
-    """Return whether the sensor flags of two shapes allow their pair in the selection `which`.
+    """Return whether the selection `which` accepts a pair of shapes, judged by their sensor flags alone.
 
-    which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The other condition of SOLIDS, see may_change, is not
+    which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The second condition of SOLIDS, may_change, is not
     tested.
     """
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
@@ -78,9 +81,9 @@ def is_wanted(which, a, b):
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Return whether `which` (ALL, NO_SENSORS, SOLIDS or SENSORS) selects a pair of SHAPE rows.
+    """Return whether the selection `which` (ALL, NO_SENSORS, SOLIDS or SENSORS) contains a pair of shapes.
 
-    SOLIDS selects a pair only if a step can change its contact, see may_change.
+    SOLIDS contains a pair only if a step can change its contact, see may_change. a, b: SHAPE rows.
     """
     if not is_wanted(which, a, b):
         return False
@@ -89,11 +92,11 @@ def is_asked(which, bodies, a, b):
 
 @kernel
 def collide_boxes(batch, which, manifolds_out, work_inout):
-    """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
+    """Write a contact for each candidate pair whose AABBs overlap. Return the number of contacts. O(candidates).
 
-    The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: ALL,
-    NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS; batch: see
-    manifold.Batch.
+    The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: the pairs
+    to test: ALL, NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS; batch:
+    a manifold.Batch.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -133,7 +136,10 @@ WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 @inlined
 def kind_of_pair(low, high):
-    """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes whose kinds are `low` and `high`, in this order."""
+    """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes.
+
+    low, high: kinds of the two shapes (CIRCLE, MASK, …), the smaller number first.
+    """
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
     if low == BOUNDS and high == BOUNDS:
@@ -152,10 +158,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of a pair, refined for masks at exact poses (snap=False) and for one-way surfaces of masks.
+    """Return a pair's kind, refined for masks at exact poses (snap=False) and for one-way surfaces of masks.
 
     kind: result of kind_of_pair. MASKS becomes MASKS_EXACT if at least one mask has snap=False. CHAIN_ANY becomes
-    SURFACE_ANY if the chain is the one-way surface of a mask. All other kinds are unchanged. a, b: SHAPE rows.
+    SURFACE_ANY if the chain is the one-way surface of a mask. Other kinds are returned unchanged. a, b: SHAPE rows.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -178,9 +184,9 @@ def boxes_apart(a, b, margin):
 
 @inlined
 def kind_asked(bodies, a, b, margin, lookahead, which):
-    """Return the kind of a candidate pair of SHAPE rows; NOTHING if the pair need not be tested.
+    """Return the kind of a candidate pair (CIRCLES, POLYGONS, …); NOTHING if the pair need not be tested.
 
-    margin [px], lookahead [s]: see Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
+    a, b: SHAPE rows; margin [px], lookahead [s]: as in Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
     """
     if not is_wanted(which, a, b):
         return NOTHING
@@ -244,9 +250,9 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
 def remember_ground(batch, previous, memory_out):
     """Find the contacts of the last step of each candidate pair with a tile grid or one-way surface.
 
-    They show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
-    the candidates; memory_out (count, 2): first row in `previous` and number of rows, for each pair. O(candidates +
-    previous). batch: see manifold.Batch.
+    These contacts show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape
+    ids like the candidates; memory_out (count, 2): for each pair, the first row in `previous` and the number of rows.
+    O(candidates + previous). batch: a manifold.Batch.
     """
     j = 0
     for i in range(batch.count):
@@ -270,10 +276,10 @@ def remember_ground(batch, previous, memory_out):
 
 
 class NarrowPhase:
-    """The narrow phase of one world, with the arrays that are reused between steps.
+    """Narrow phase of one world, with arrays that are reused between steps.
 
     full_masks: True to compute area, normal and depth of pairs of masks, False to find only whether they overlap.
-    one_way: whether the world has one-way ground. boxes_only: True to find contacts from AABBs alone.
+    one_way: whether the world has one-way ground. boxes_only: True to compute contacts from AABBs alone.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
@@ -312,10 +318,10 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Return the CONTACT rows of the candidate pairs, in the order of the candidates.
 
-        The result is a view, which the next call but one overwrites. Masks are rasterized first at the poses of their
-        bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in SHAPE; margin [px]: largest gap
-        of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: see
-        hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground.
+        The result is a view that stays valid until the second next call. Masks are first rasterized at the poses of
+        their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in SHAPE; margin [px]: largest
+        gap of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: as in
+        hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground, or None.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -339,22 +345,22 @@ class NarrowPhase:
         graze: float,
         lookahead: float,
     ) -> Batch:
-        """Return the Batch of these candidates, with an array for their kinds. Arguments as in collide and Batch."""
+        """Return the Batch of the given candidates, with room for their kinds. Arguments as in `collide` and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
         return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
-        """Return the contacts of the candidates from their AABBs alone. which: ALL, NO_SENSORS, SOLIDS or SENSORS."""
+        """Return the CONTACT rows of the candidates, computed from AABBs alone, see collide_boxes. which: as there."""
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
         return self.raw[:found]  # self.raw is a new, larger table if the old one was too small
 
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
-        """Test all pairs that `classify` has selected. Return the contacts in the order of the candidates.
+        """Test all pairs that `classify` has selected. Return the CONTACT rows in the order of the candidates.
 
-        previous: CONTACT rows of the last step, or None; recycled: number of contacts that are kept from the last step
-        without a test. The caller has written them to the beginning of self.raw, and they are part of the result.
-        batch: see manifold.Batch.
+        recycled: number of contacts reused from the last step without a test. The caller has written them to the first
+        rows of self.raw, and they are part of the result. previous: CONTACT rows of the last step, or None; work:
+        counters of work done; batch: a manifold.Batch.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -378,11 +384,12 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
-        """Run the passes, and append their contacts to self.raw after the first `recycled` rows (kept contacts).
+        """Run the passes, and write their contacts to self.raw after the first `recycled` rows.
 
-        Return (number of contacts including the kept ones, number of passes made). The fallback counts as a pass if it
-        added a contact. The contacts of one pass are in the order of the candidates, so that sorting is needed only
-        after several passes. workspace: scratch memory; batch: see manifold.Batch.
+        The first rows are contacts reused from the last step. Return (number of contacts including the recycled ones,
+        number of passes). The fallback counts as a pass if it added a contact. A single pass writes its contacts in the
+        order of the candidates, so the caller need not sort them. counts: number of pairs of each kind. workspace:
+        scratch memory; batch: a manifold.Batch.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -409,7 +416,7 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _without_hulls(self, workspace, shapes):
-        """Return the workspace without hulls of earlier poses, with room for those of this number of shapes."""
+        """Return the workspace with an empty cache of hulls, with room for this number of shapes."""
         if len(workspace.hull_rows) < min(shapes, HULLS):
             hulls, rows = empty_hulls(min(HULLS, 1 << (2 * shapes).bit_length()))
             workspace = workspace._replace(hulls=hulls, hull_rows=rows)
@@ -418,7 +425,7 @@ class NarrowPhase:
         return workspace
 
     def _remember(self, batch, previous):
-        """Write the contacts of the last step with one-way ground to the workspace, and return it."""
+        """Return the workspace with the last step's contacts on one-way ground, from the CONTACT rows `previous`."""
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
@@ -439,7 +446,7 @@ class NarrowPhase:
             self.kinds = np.zeros(2 * count + 1, np.int64)
 
     def _deep_for(self, count) -> np.ndarray:
-        """Return a scratch array for the flags of at least `count` contacts, for drop_opposed."""
+        """Return a bool scratch array for at least `count` contacts, for the flags of drop_opposed."""
         if len(self.deep) < count:
             self.deep = np.zeros(2 * count, bool)
         return self.deep
@@ -447,7 +454,7 @@ class NarrowPhase:
     def _drop_seams(self, batch, previous, found) -> int:
         """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining contacts.
 
-        found: number of contacts in self.raw before; previous: CONTACT rows of the last step; batch: see
+        found: number of contacts in self.raw before the call; previous: CONTACT rows of the last step; batch: a
         manifold.Batch.
         """
         bodies, rows = len(batch.bodies), found + len(previous)
@@ -459,9 +466,10 @@ class NarrowPhase:
         return drop_seams(batch, previous, found, self.workspace, self.lists, self.ground, self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return an array for `count` CONTACT rows, to which the caller writes contacts kept from the last step.
+        """Return self.raw, enlarged to at least `count` CONTACT rows.
 
-        The caller passes their number to the next call of `complete` as `recycled`.
+        The caller writes contacts that are reused from the last step without a test to the first rows. It then passes
+        their number to the next call of `complete` as `recycled`.
         """
         self._make_room(count)
         return self.raw
@@ -474,7 +482,7 @@ class NarrowPhase:
 
 
 def no_work() -> np.ndarray:
-    """Return a new array of work counters, for calls whose work is not counted."""
+    """Return a new array of work counters, for calls of the narrow phase whose work is not counted."""
     return np.zeros(len(COUNTERS), np.int64)
 
 
@@ -489,8 +497,8 @@ GRAZE = 1.5  # Batch.graze, in slops; more than the one slop by which a resting 
 def detect(state: StepState) -> np.ndarray:
     """Return the CONTACT rows at the present poses, with approach speeds.
 
-    Before the call state.contact_rows holds the contacts of the last step. With contact response, pairs with sensors
-    are left out, because the stage `sense` tests them at the final poses.
+    Before the call, state.contact_rows holds the contacts of the last step. In worlds with contact response, pairs with
+    sensors are omitted, because the stage `sense` tests them at the final poses.
     """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
@@ -510,10 +518,10 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
-    """Compute points, normals and separations of swept contacts again, at the present poses.
+    """Recompute points, normals and separations of swept contacts at the present poses.
 
-    met: CONTACT rows to update in place; a row stays unchanged if the narrow phase finds no contact with a similar
-    normal.
+    met: CONTACT rows of the swept contacts, updated in place; a row stays unchanged if the narrow phase finds no
+    contact with a similar normal.
     """
     found = state.workspace.narrow.collide(
         state.library,
@@ -540,5 +548,5 @@ def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     writes=("contact_rows", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
-    """Find the contacts at the final poses of the step, in worlds without a contact cache."""
+    """Write the contacts at the final poses of the step to state.contact_rows, in worlds without a contact cache."""
     state.contact_rows = detect(state)

@@ -1,4 +1,4 @@
-"""Removal of ghost collisions: contacts at the seam between two flush pieces of ground are dropped."""
+"""Removal of ghost collisions: drops contacts at the seam between two flush pieces of ground."""
 
 import math
 from typing import NamedTuple
@@ -57,9 +57,9 @@ class BodyLists(NamedTuple):
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return the side of a CONTACT row that is ground and touches a dynamic body: 0 for A, 1 for B, or NONE.
+    """Return the side of a CONTACT row that is ground under a dynamic body: 0 for A, 1 for B, or NONE.
 
-    NONE: both bodies or neither are dynamic, or a shape is a mask.
+    NONE: both bodies are dynamic, or neither is, or one of the shapes is a mask. manifold: CONTACT row.
     """
     m = manifold
     a_moves = bodies[m.body_row_a].kind == DYNAMIC
@@ -72,9 +72,9 @@ def ground_side(bodies, shapes, manifold):
 
 @subkernel
 def is_at_corner(shapes, manifold):
-    """Return whether a contact is at a corner: between two corners, or between a corner and a disc.
+    """Return whether a contact is between two corners, or between a corner and a disc.
 
-    Its normal is then not that of a face. manifold: CONTACT row.
+    The normal of such a contact is not that of a face. manifold: CONTACT row.
     """
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
@@ -109,11 +109,11 @@ def piece_at(batch, row, feature, corners_out):
 
 @subkernel
 def may_be_seam(batch, side, manifold, corners_out):
-    """Return whether a contact with ground may be at a seam: an end of its piece of ground (see piece_at) is near.
+    """Return whether a contact with ground may be at a seam: it is near an end of its piece of ground (see piece_at).
 
     The result is also True if a point of the contact does not touch yet. It is False for a contact over a wide face,
-    and for a contact of a disc with a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row; corners_out
-    (16, 2): scratch; batch: see manifold.Batch.
+    and for a contact between a disc and a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row;
+    corners_out (16, 2): scratch; batch: a manifold.Batch.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b
@@ -133,9 +133,9 @@ def may_be_seam(batch, side, manifold, corners_out):
 
 @subkernel
 def highest_within(hull, nx, ny, low, high):
-    """Return the greatest coordinate [px] along (nx, ny) of the part of a Hull within a strip; -inf if it is outside.
+    """Return the greatest coordinate [px] along (nx, ny) of the part of a Hull inside a strip; -inf if none is inside.
 
-    The strip is the interval low..high [px] along (-ny, nx).
+    The strip consists of the points whose coordinate along (-ny, nx) is in low..high [px].
     """
     corners = hull.corners
     low -= hull.radius
@@ -179,10 +179,10 @@ def distance_to_hull(hull, x, y):
 
 @subkernel
 def is_behind_plane(batch, seam, support, workspace):
-    """Return whether the piece of ground in contact `seam` lies behind the contact plane of contact `support`.
+    """Return whether the ground of contact `seam` is nowhere in front of the contact plane of contact `support`.
 
-    Near the body, the piece may rise above the plane by the tolerance batch.graze [px]. seam, support: CONTACT rows of
-    the same dynamic body with two pieces of ground; workspace: scratch memory.
+    Only ground near the body is tested, and it may rise above the plane by the tolerance batch.graze [px]. seam,
+    support: CONTACT rows of one dynamic body with two pieces of ground; workspace: scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -222,8 +222,8 @@ def is_behind_plane(batch, seam, support, workspace):
 def is_on_piece(batch, row, x, y, own_part, workspace):
     """Return whether the point (x, y) is on a shape of the ground, or within the tolerance batch.graze [px] of it.
 
-    row: row number in SHAPE; own_part: a part of the shape to ignore (index of a link, or of a run's first cell), or
-    NONE; workspace: scratch memory.
+    row: row number in SHAPE; own_part: a part of this shape that is ignored (index of a link, or of a run's first
+    cell), or NONE; workspace: scratch memory.
     """
     geometry = batch.geometry
     near = batch.graze
@@ -265,10 +265,10 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 
 @subkernel
 def is_covered(batch, seam, first, others, workspace):
-    """Return whether each touching point of a contact also lies on another piece of ground.
+    """Return whether each touching point of a contact is also on another piece of ground than the contact's own.
 
-    seam: CONTACT row of a dynamic body. first, others: linked list of this body's candidate pairs with ground: index of
-    the first pair, and array with the index of the next pair for each pair; batch: see manifold.Batch. workspace:
+    seam: CONTACT row of a dynamic body; first, others: linked list of this body's candidate pairs with ground. `first`
+    is the index of the first pair, others[pair] the index of the next one, or NONE. batch: a manifold.Batch; workspace:
     scratch memory.
     """
     shapes = batch.shapes
@@ -299,7 +299,7 @@ def is_covered(batch, seam, first, others, workspace):
 def list_ground(batch, lists_out):
     """Write for each dynamic body the linked list of its candidate pairs with ground (bodies that are not dynamic).
 
-    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: see manifold.Batch.
+    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: a manifold.Batch.
     """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
@@ -315,7 +315,7 @@ def list_ground(batch, lists_out):
 
 @kernel
 def has_seams(batch, manifolds, count, workspace):
-    """Return whether one of the first `count` CONTACT rows may be at a seam, see may_be_seam. O(contacts)."""
+    """Return whether at least one of the first `count` CONTACT rows may be at a seam, see may_be_seam. O(contacts)."""
     for i in range(count):
         side = ground_side(batch.bodies, batch.shapes, manifolds[i])
         if side != NONE and may_be_seam(batch, side, manifolds[i], workspace.a):
@@ -325,7 +325,10 @@ def has_seams(batch, manifolds, count, workspace):
 
 @subkernel
 def is_recycled(batch, contact):
-    """Return whether a CONTACT row of the last step is recycled: its candidate pair is not tested in this step."""
+    """Return whether a contact of the last step is reused because its candidate pair is not tested in this step.
+
+    contact: CONTACT row of the last step.
+    """
     pair = contact.candidate
     if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
         return False
@@ -338,9 +341,10 @@ def is_recycled(batch, contact):
 
 @subkernel
 def link_contact(batch, contact, place, lists_inout):
-    """Add a contact with ground to the linked list of its dynamic body.
+    """Add a contact to the linked list of its dynamic body, if the other body is ground.
 
-    contact: CONTACT row; place: the number to list for it; lists_inout: BodyLists; batch: see manifold.Batch.
+    contact: CONTACT row; place: the number to store for it in the list; lists_inout: BodyLists; batch: a
+    manifold.Batch.
     """
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
@@ -353,10 +357,10 @@ def link_contact(batch, contact, place, lists_inout):
 def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, manifolds_inout):
     """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of remaining contacts.
 
-    manifolds_inout: CONTACT rows, of which the first `count` are in use and keep their order. previous: CONTACT rows of
-    the last step; those that are kept without a test in this step (see is_recycled) also count as supporting contacts.
-    contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body). batch:
-    see manifold.Batch. workspace: scratch memory.
+    manifolds_inout: CONTACT rows, of which the first `count` are in use; the remaining ones keep their order. previous:
+    CONTACT rows of the last step. Rows of `previous` that are recycled (see is_recycled) also count as support of the
+    body. contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body).
+    batch: a manifold.Batch; workspace: scratch memory.
     """
     bodies = batch.bodies
     shapes = batch.shapes

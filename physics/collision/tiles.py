@@ -1,4 +1,4 @@
-"""Collision of tile grids with other shapes. Equal adjacent tiles in a row are tested as one rectangle, a run."""
+"""Collision of tile grids with other shapes. Adjacent equal tiles in a row are tested as one rectangle, a run."""
 
 import math
 from typing import Any
@@ -40,7 +40,7 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
-    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column).
+    """Return whether the cell (row, column) covers the edge shared with the adjacent cell (from_row, from_column).
 
     grids, cells: GRID and CELL tables of the geometry; grid: row number in `grids`.
     """
@@ -64,7 +64,7 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def bends_down(grids, cells, grid, row, column, side):
-    """Return whether the ground bends down between a tile and the tile beside it, so that the corner is exposed.
+    """Return whether the ground bends down from a tile to the tile beside it, which exposes the corner between them.
 
     grids, cells: GRID and CELL tables of the geometry; grid: row number in `grids`; row, column: the tile; side: -1 for
     the left neighbour, 1 for the right neighbour.
@@ -91,10 +91,10 @@ def corners_between(edges, count):
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
     """Write the world corners [px] of the run of solid or one-way cells that contains the cell (row, column).
 
-    The run is one rectangle, without seams between its cells. Return (number of corners, bits of touchable edges and
-    corners); for the bits see tile_at. The top (bottom) edge is touchable if some cell of the run, within the columns
-    `under`, has no neighbour above (below) that covers the edge. grid: row number in GRID; x, y [px]: the grid's
-    origin; under: first and last column under the other shape. corners_out (16, 2): the result.
+    A run is adjacent equal cells in a row, treated as one rectangle. Return (number of corners, bits of touchable edges
+    and corners); for the bits see tile_at. The top edge is touchable if a cell of the run, within the columns `under`,
+    has no covering neighbour above it; likewise the bottom edge with neighbours below. grid: row number in GRID; x, y
+    [px]: the grid's origin; under: (first, last) column under the other shape. corners_out (16, 2): the result.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -129,10 +129,10 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
 def tile_at(geometry, grid, x, y, row, column, corners_out):
     """Write the world corners [px] of a tile, clockwise on the screen from the top left.
 
-    A slope has three or four corners. grid: row number in GRID; x, y [px]: the grid's origin; corners_out (16, 2).
-    Return (number of corners, bits): the low 16 bits are the touchable edges (not covered by a neighbour), the next 16
-    bits the touchable corners. A corner at a covered edge is touchable where the ground bends down. If all edges are
-    covered, all are touchable, so that a body inside the tile is pushed out.
+    A slope has three or four corners. Return (number of corners, bits): the low 16 bits are the touchable edges (not
+    covered by a neighbour), the next 16 bits the touchable corners. A corner at a covered edge is touchable where the
+    ground bends down. If all edges are covered, all are touchable, so that a body inside the tile is pushed out. grid:
+    row number in GRID; x, y [px]: the grid's origin; row, column: the tile; corners_out (16, 2): the result.
     """
     grids, cells = geometry.grids, geometry.cells
     g = grids[grid]
@@ -195,8 +195,8 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 def pushing_edges_on_tile(corners, count, tile_edges):
     """Return bits of the edges of a polygon whose normals may push the polygon out of a tile.
 
-    An edge is left out if it would push through a covered side of the tile. tile_edges: bits returned by tile_at for a
-    tile of four corners (surface, right, bottom, left).
+    An edge is omitted if it would push the polygon through a covered side of the tile. corners, count: the polygon;
+    tile_edges: bits returned by tile_at for a tile of four corners (top, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
@@ -226,7 +226,8 @@ def pushing_edges_on_tile(corners, count, tile_edges):
 def touched_run(workspace, pair, run):
     """Return whether a candidate pair touched a run of tiles in the last step.
 
-    pair: index of the candidate; run: index of the run's first cell; workspace: see manifold.Workspace.
+    pair: index of the candidate; run: index of the run's first cell; workspace: manifold.Workspace with the contacts of
+    the last step.
     """
     if pair >= len(workspace.memory):
         return False
@@ -243,14 +244,14 @@ def touched_run(workspace, pair, run):
 def make_grid_pass(one_way: bool) -> Any:
     """Return the kernel that collides tile grids with all other shapes.
 
-    one_way: whether the world has one-way tiles.
+    one_way: True if the world has one-way tiles.
     """
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contacts of a tile grid and another shape. Return the new number of contacts.
+        """Append the contacts of candidate number `pair`, a tile grid and another shape.
 
-        Arguments: see manifold.make_pass.
+        Return the new number of contacts. Arguments: see manifold.make_pass.
         """
         geometry = batch.geometry
         bodies = batch.bodies
