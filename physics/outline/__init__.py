@@ -1,1 +1,1 @@
-"""From pixels to shapes: contours, smooth outlines, simple enclosing shapes, convex decomposition."""
+"""Conversion of pixels to shapes: contours, smooth outlines, simple enclosing shapes, convex decomposition."""

@@ -1,4 +1,4 @@
-"""From pixels to outlines: contours along pixel edges, and outlines in which straight lines replace staircases."""
+"""Outlines of pixels: contours along pixel edges, and outlines in which straight lines replace staircases."""
 
 import math
 from typing import NamedTuple
@@ -32,7 +32,7 @@ class Loop(NamedTuple):
 
 
 class Contour(NamedTuple):
-    """One connected piece of solid pixels: the loop around it, and the loops around its holes."""
+    """One connected piece of solid pixels: the loop of pixel edges around it, and the loops around its holes."""
 
     outer: Loop  # clockwise on the screen
     holes: list[Loop]  # counter-clockwise on the screen
@@ -42,10 +42,10 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     """Return the connected pieces of solid[row, col] bool, ordered by their topmost, then leftmost corner.
 
     A loop lists only the corners at which it turns. A pinch is a corner at which solid pixels touch only diagonally.
-    joined [px] determines whether the pixels at a pinch are connected. With joined = 0 they never are: pieces are
-    4-connected, no loop visits a corner twice, and loops touch at most in pinches. With joined > 0 they are connected,
-    and a loop may pass the pinch twice, unless a horizontal and a vertical run of at least `joined` px meet there. The
-    time is linear in pixels (vectorised) and corners.
+    joined [px] determines whether the two pixels at a pinch are connected. With joined = 0 they never are: pieces are
+    4-connected, no loop visits a corner twice, and loops touch only at pinches. With joined > 0 they are connected,
+    unless a horizontal and a vertical run of at least `joined` px meet at the pinch. A run is a straight row of pixel
+    edges. A loop may pass a connected pinch twice. The time is linear in pixels (vectorised) and corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -69,7 +69,10 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
 
 
 def doubled_area(points: np.ndarray) -> float:
-    """Return twice the signed area of a loop, points (n, 2): positive for a loop that is clockwise on the screen."""
+    """Return twice the signed area [px2] of a closed polygon: positive if it is clockwise on the screen.
+
+    points (n, 2) [px]: corners of the polygon.
+    """
     x, y = points[:, 0], points[:, 1]
     return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 
@@ -104,10 +107,11 @@ class _Runs:
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Link each run to the run after it (self.next), and find the pinches where diagonal pixels are not connected.
+        """Set for each run the next run of its loop (self.next), and find the pinches whose pixels are not connected.
 
-        One horizontal and one vertical run meet at a corner, two of each kind at a pinch. stops: corner at the end of
-        each run; signs: direction of each run; lengths [px]: length of each run; joined [px]: see contours.
+        At a pinch, solid pixels touch only diagonally, and two horizontal and two vertical runs meet. At any other
+        corner one run of each kind meets. stops: corner at the end of each run; signs: direction of each run; lengths
+        [px]: length of each run; joined [px]: see contours.
         """
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
@@ -139,9 +143,10 @@ class _Runs:
             self.next[rows] = (order[at] if len(keys) else at) + (others.start or 0)
 
     def loops(self):
-        """Yield the loops, each as the indices of its runs.
+        """Yield each loop as an array of the indices of its runs.
 
-        A loop that visits a pinch twice is split there into two, if the pixels at the pinch are not connected.
+        If a loop visits a pinch twice and the pixels at the pinch are not connected, the loop is split there into two
+        loops.
         """
         following, apart, unseen = self.next.tolist(), self.apart.tolist(), bytearray(b"\1") * len(self.next)
         places = self.corners
@@ -163,9 +168,9 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the nearest vertical run to the left of a hole. All pixels between this run and the hole are solid.
+        """Return the index of the nearest vertical run to the left of a hole.
 
-        points: the hole's corners.
+        All pixels between this run and the hole are solid. points (n, 2): the hole's corners.
         """
         k = int(points[:, 0].argmin())
         # Of the two runs at a corner in the hole's leftmost column, one is vertical.
@@ -177,9 +182,9 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return the runs of equal values in cracks[line, position] as arrays (line, start, end, sign).
+    """Return the runs of equal values other than 0 in cracks[line, position] as arrays (line, start, end, sign).
 
-    cracks: -1 or 1 where there is a pixel edge between solid and clear, otherwise 0.
+    cracks: -1 or 1 where there is a pixel edge between a solid and a clear pixel, otherwise 0; `sign` is this value.
     """
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
@@ -212,9 +217,9 @@ LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than the distance from a crack to a 
 
 
 class Outline(NamedTuple):
-    """Outline of one connected piece: simple polygons in raster pixels.
+    """Outline of one connected piece of pixels: simple polygons in raster pixels.
 
-    They touch each other at most in single points.
+    The polygons touch each other only at single points, if at all.
     """
 
     outer: np.ndarray  # (n, 2) float64: corners, clockwise on the screen
@@ -226,21 +231,20 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
 
     smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of these edges is
     within smooth + 0.21 of the outline. With smooth = 0 the outline is the pixels' edges. Centres of solid pixels are
-    inside, centres of clear pixels outside. Corners between straight rows of pixel edges of 3 px or more are kept, and
-    so are all corners of a rectangle.
+    inside, centres of clear pixels outside. The corner between two straight rows of pixel edges, both of 3 px or more,
+    is kept. All corners of a rectangle are also kept.
 
-    Two diagonal pixels belong to one piece if the outline can pass from one to the other. It cannot pass at a kept
-    corner, nor with smooth < 0.25. Corners of the outline lie at the ends and middles of pixel edges; their number is
-    near the least possible for such corners. Pieces are ordered by their topmost, then leftmost corner. O(corners *
-    corners per line).
+    Two diagonal pixels belong to one piece if the outline connects them. It does not at a kept corner, nor with smooth
+    < 0.25. Corners of the outline are at ends and middles of pixel edges. Their number is near the least possible.
+    Pieces are ordered by their topmost, then leftmost corner. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the connected pieces of solid[row, col] bool. Diagonal pixels are connected if one outline surrounds both.
+    """Return the connected pieces of solid[row, col] bool, in which diagonal pixels may be connected, see contours.
 
-    smooth [px]: see outline.
+    smooth [px]: see outline; from 0.25 px on, diagonal pixels are connected except where two runs of 3 px or more meet.
     """
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
@@ -252,7 +256,7 @@ def smoothed_piece(piece: Contour, smooth: float) -> Outline:
 
 
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
-    """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges.
+    """Return the corners (n, 2) float64 [px] of the straight lines that replace a loop of pixel edges.
 
     reach [px]: largest distance of the lines from the pixel edges; with 0 the corners of the loop are returned. curves:
     True if the lines follow round curves of the drawing (see curves.py), False for as few lines as possible.
@@ -278,10 +282,10 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return, for each corner of a loop, whether smoothing keeps it: (n,) bool.
+    """Return whether smoothing keeps each corner of a loop: (n,) bool.
 
-    Corners between runs of 3 px or more are kept, and corners of rectangles. A pinch at which pixels are connected is
-    not.
+    Kept are corners between two straight rows of pixel edges of 3 px or more, and corners of rectangles. A corner at
+    which diagonal pixels are connected is never kept.
     """
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)

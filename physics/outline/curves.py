@@ -1,4 +1,4 @@
-"""Outline lines along round curves of a drawing. Each of these lines has the direction of the curve."""
+"""Outline lines along the round curves of a drawing, with the directions of the curve."""
 
 import math
 from typing import NamedTuple
@@ -73,7 +73,7 @@ FITTED = np.dtype([(name, np.float64) for name in ("x", "y", "along_x", "along_y
 
 
 class Lines(NamedTuple):
-    """Scratch arrays of the line search, large enough for the longest possible path."""
+    """Scratch arrays of the search for lines along a path, large enough for the longest possible path."""
 
     runs: np.ndarray  # RUN
     places: np.ndarray  # PLACE
@@ -121,9 +121,10 @@ def room_for_lines(cracks: int) -> Lines:
 
 @subkernel
 def read_vertices(found, path, workspace):
-    """Write the vertices (ends of lines) that the line search found. Return the number of lines between them.
+    """Write the vertices (ends of lines) that the line search found to workspace.vertices. Return the number of lines.
 
-    found: number of places in workspace.chain, which lists them from last to first; path: Path; workspace: Lines.
+    found: number of entries of workspace.chain, which lists the vertices' rows in workspace.places from last to first;
+    path: Path; workspace: Lines.
     """
     vertices, places = workspace.vertices, workspace.places
     count = found - 1
@@ -153,7 +154,7 @@ def read_vertices(found, path, workspace):
 
 @subkernel
 def turn_between(first, second):
-    """Return the angle [rad] from the line that starts at one vertex to the line that starts at another.
+    """Return the angle [rad] from the line that starts at vertex `first` to the line that starts at vertex `second`.
 
     It is > 0 for a turn that is clockwise on the screen. first, second: VERTEX rows.
     """
@@ -165,12 +166,12 @@ def turn_between(first, second):
 
 @subkernel
 def turn_beyond(k, step, count, closed, vertices):
-    """Return (turn [rad] at an end of line k, whether another line follows there).
+    """Return (turn [rad] from line k to the lines after it, whether such a line exists).
 
-    No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines shorter than SPIKE px are
-    skipped. The turn is the smallest of those from line k to the following lines, up to the first line that is not far
-    shorter than line k. step: 1 for the line's end, -1 for its start; count: number of lines of the path; closed:
-    whether the path is closed; vertices: VERTEX rows.
+    step: 1 for the lines after line k, -1 for those before it. No line follows a fixed corner (anchor) or the end of an
+    open path. Lines shorter than SPIKE px are ignored. The result is the smallest turn from line k to each of the
+    following lines, up to the first one that is not much shorter than line k. count: number of lines of the path;
+    closed: whether the path is closed; vertices: VERTEX rows.
     """
     j = k
     least = 0.0
@@ -195,7 +196,7 @@ def turn_beyond(k, step, count, closed, vertices):
 
 @subkernel
 def kind_of_line(k, count, closed, vertices):
-    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE.
+    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE for a very short line, else STRAIGHT_LINE.
 
     count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX rows.
     """
@@ -220,9 +221,9 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middles of a path's pixel edges to workspace.middles: that of edge k to row FIT + k.
+    """Write the middle of each pixel edge of a path to workspace.middles: that of edge k to row FIT + k.
 
-    For a loop, FIT edges before its start and after its end are also written. path: Path; workspace: Lines.
+    For a closed path, FIT edges before its start and after its end are also written. path: Path; workspace: Lines.
     """
     for k in range(path.count):
         run = workspace.runs[k]
@@ -243,8 +244,8 @@ def write_middles(path, workspace):
 def fit_at(row, half, middles, fitted_out):
     """Fit a parabola to the middles of the pixel edges in rows row - half to row + half.
 
-    The parabola's point and direction at `row` are written to fitted_out, a FITTED row. half 0 counts as 1. middles:
-    POINT rows, see write_middles.
+    The parabola's point and direction at `row` are written to fitted_out, a FITTED row. If half is 0, 1 is used.
+    middles: POINT rows, see write_middles.
     """
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
@@ -284,8 +285,8 @@ def fit_curve(curve, path, workspace):
 def fit_of(at, curve, fitted):
     """Return the point (x, y) [px] and the unit direction (x, y) of a fitted curve at a position along its path.
 
-    Both are interpolated between the two nearest rows. at: position from the start of the path, in pixel edges; fitted:
-    FITTED rows of the curve, see fit_curve.
+    Both are interpolated between the two nearest pixel edges. The result is a tuple of four numbers. at: position from
+    the start of the path, in pixel edges; fitted: FITTED rows of the curve, see fit_curve.
     """
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
@@ -304,7 +305,7 @@ def fit_of(at, curve, fitted):
 def off_corner(x, y, before, run, most):
     """Shorten an offset (x, y) [px] from the corner between two runs, so that it ends within `most` px of the runs.
 
-    Return the new offset. before, run: the RUN rows that end and start at the corner.
+    Return the new offset (x, y). before: RUN row that ends at the corner; run: RUN row that starts there.
     """
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
@@ -318,11 +319,11 @@ def off_corner(x, y, before, run, most):
 
 @subkernel
 def put_on_curve(n, k, along, curve, path, workspace):
-    """Append a candidate corner (PLACE row) of run k of a path, moved onto the curve. Return the number of places.
+    """Append a candidate corner (PLACE row) on run k of a path, moved onto the curve. Return the number of PLACE rows.
 
-    A place within a run is moved only along the run's normal. n: number of places before; k: run number, which in a
-    loop counts on beyond the last run; along: position from the start of the run, in pixel edges, 0 for the corner at
-    which the run starts; path: Path; workspace: Lines.
+    Inside a run, the candidate is moved only along the run's normal. n: number of PLACE rows before; k: index of the
+    run, which in a loop may exceed the number of runs; along: position from the start of the run, in pixel edges, 0 for
+    the corner at which the run starts; path: Path; workspace: Lines.
     """
     runs = workspace.runs
     run = runs[k % path.count]
@@ -350,10 +351,10 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex as a candidate corner (PLACE row) on run k of a path. Return the number of places.
+    """Append a vertex as a candidate corner (PLACE row) on run k of a path. Return the number of PLACE rows.
 
-    n: number of places before; at: position of the vertex along the path, in pixel edges; curve: Curve that gives its
-    direction; path: Path; workspace: Lines.
+    vertex: VERTEX row; n: number of PLACE rows before; at: position of the vertex along the path, in pixel edges;
+    curve: Curve that gives the direction of the row; path: Path; workspace: Lines.
     """
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
@@ -363,9 +364,9 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the number of the run at a position along a path. at: the position, in pixel edges.
+    """Return the index of the run at a position along a path. at: the position, in pixel edges.
 
-    In a loop, run numbers and `at` count on beyond its end. runs: RUN rows; path: Path.
+    For a loop, `at` may exceed its length; then the index exceeds the number of runs. runs: RUN rows; path: Path.
     """
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
@@ -375,9 +376,9 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the candidate corners (PLACE rows) of a curve between two vertices. Return the number of places.
+    """Write the candidate corners (PLACE rows) of a curve between two vertices. Return the number of PLACE rows.
 
-    first, last: numbers of the vertices; curve: Curve; path: Path; workspace: Lines.
+    first, last: indices of the vertices; curve: Curve; path: Path; workspace: Lines.
     """
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
@@ -405,10 +406,10 @@ def put_curve(first, last, curve, path, workspace):
 
 @subkernel
 def widest_fit(first, length, count, path, vertices):
-    """Return how many pixel edges on either side of a point a fit of a curve may use, at most FIT.
+    """Return the number of pixel edges, at most FIT, that a fit of a curve may use on either side of a point.
 
-    The number is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve
-    starts; length: number of the curve's lines; count: number of lines of the path; vertices: VERTEX rows.
+    The number is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: index of the curve's
+    first line; length: number of the curve's lines; count: number of lines of the path; vertices: VERTEX rows.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -426,7 +427,7 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve that consists of `length` lines from vertex `first` on.
+    """Return the Curve that consists of `length` lines, starting at vertex `first`.
 
     Its field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: Path;
     workspace: Lines.
@@ -464,11 +465,11 @@ def span_of(first, length, count, path, workspace):
 
 @subkernel
 def lay_curve(first, length, count, path, workspace, n, points_out):
-    """Append the points of a curve to points_out, except its last point. Return the number of points after that.
+    """Append the points of a curve to points_out, except its last point. Return the new number of points.
 
-    A curve narrower than its tolerance adds no point. first: vertex at which the curve starts; length: number of line
-    segments of the path that the curve replaces; count: number of line segments of the path; path: see span_of; n:
-    number of points before; points_out: POINT rows; workspace: see Lines.
+    No point is added if the curve is too narrow for a fit, or if no lines along it are found. first: index of the
+    vertex at which the curve starts; length: number of lines of the path that the curve replaces; count: number of
+    lines of the path; path: Path; n: number of points before; points_out: POINT rows; workspace: Lines.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:
@@ -492,9 +493,9 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 
 @subkernel
 def put_points_of(first, length, vertices, n, points_out):
-    """Append the points of `length` vertices from vertex `first` on, unchanged. Return the number of points.
+    """Append `length` vertices, starting with vertex `first`, to points_out. Return the new number of points.
 
-    n: number of points before; points_out: POINT rows.
+    vertices: VERTEX rows; n: number of points before; points_out: POINT rows.
     """
     for k in range(first, first + length):
         points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
@@ -505,10 +506,11 @@ def put_points_of(first, length, vertices, n, points_out):
 
 @subkernel
 def lay_lines(found, path, workspace, n, points_out):
-    """Append the points of the outline along a path: its straight lines, and lines computed again along curves.
+    """Append the points of the outline along a path: its straight lines, and lines recomputed along curves.
 
-    Return the number of points. For a closed path the last point, equal to the first, is left out. found: number of
-    places in workspace.chain, the ends of the straight lines; n: number of points before; points_out: POINT rows.
+    Return the new number of points. For a closed path the last point, equal to the first, is omitted. found: number of
+    entries of workspace.chain, which lists the ends of the straight lines; path: Path; n: number of points before;
+    points_out: POINT rows; workspace: Lines.
     """
     vertices = workspace.vertices
     count = read_vertices(found, path, workspace)
@@ -552,7 +554,7 @@ def lay_lines(found, path, workspace, n, points_out):
 
 @kernel
 def lines_of_loop(path, workspace, points_out):
-    """Write the points of the outline along a closed path. Return their number, or 0 if no lines were found.
+    """Write the points of the outline along a closed path. Return the number of points; 0 if no lines were found.
 
     path: Path; workspace: Lines, which holds the path's runs; points_out: POINT rows.
     """

@@ -20,14 +20,14 @@ from physics.settings import MAX_CORNERS
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the cross products of vectors (..., 2): positive if b is clockwise from a on the screen."""
+    """Return the cross products (...) of vectors a and b (..., 2): positive if b is clockwise from a on the screen."""
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 class Walls:
-    """Sides that block lines of sight. Side k leads from corners[k] to following[k], both (n, 2) [px].
+    """Sides of polygons that block lines of sight. Side k leads from corners[k] to following[k], both (n, 2) [px].
 
-    flat [px2]: a triangle counts as degenerate if twice its area is at most this.
+    flat [px2]: a triangle counts as degenerate if twice its area is at most `flat`.
     """
 
     def __init__(self, corners: np.ndarray, following: np.ndarray, flat: float) -> None:
@@ -35,21 +35,24 @@ class Walls:
         self.after = following - corners
 
     def near(self, low: np.ndarray, high: np.ndarray) -> "Walls":
-        """Return Walls with only those sides whose bounding boxes meet the box from `low` to `high`, (2,) [px] each."""
+        """Return Walls with only the sides whose bounding boxes overlap a box. low, high (2,) [px]: its corners."""
         meet = (np.minimum(self.corners, self.following) <= high) & (np.maximum(self.corners, self.following) >= low)
         meet = meet.all(axis=1)
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Return (m,) bool: whether the line from a[i] to b[i], (m, 2) each, crosses no side and meets no corner."""
+        """Return (m,) bool: whether the line from a[i] to b[i] crosses no side and passes through no corner.
+
+        a, b (m, 2) [px]: ends of the lines.
+        """
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return (crossed (m,), passed (m, n)), both bool, for lines from a (m, 2) to b (m, 2).
+        """Return (crossed (m,), passed (m, n)), both bool, for the lines from a[i] to b[i].
 
-        crossed: whether the line crosses a side; passed: whether the line passes through each corner, not counting its
-        ends.
+        crossed: whether the line crosses a side; passed: whether the line passes through each of the n corners, not
+        counting its ends. a, b (m, 2) [px].
         """
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
@@ -64,7 +67,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], clockwise on the screen, with tests of which directions lead inside."""
+    """Sides of a closed ring of corners (n, 2) [px], clockwise on the screen, with tests of inward directions."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -76,7 +79,8 @@ class Ring(Walls):
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
         """Return (m,) bool: whether the direction toward[i] leads from corner k[i] into the ring.
 
-        toward (m, 2); k (m,); closed: whether a direction along a side also counts as leading inside.
+        k (m,): indices of corners; toward (m, 2): directions; closed: True if a direction along a side also counts as
+        leading into the ring.
         """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
@@ -84,9 +88,9 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return (cuts, lines), two (n, n) bool matrices: which corners a cut, and which a line, can join.
+        """Return (cuts, lines), two (n, n) bool matrices: the pairs of corners that a cut, or a line, can join.
 
-        A cut lies strictly inside the ring. A line may also lie on sides and pass through corners. Only entries [i, j]
+        A cut is strictly inside the ring. A line may also run along sides and pass through corners. Only entries [i, j]
         with i < j are set. O(n^3), vectorised.
         """
         count = len(self.corners)
@@ -121,10 +125,10 @@ TRIED_LINES = 16  # number of lines tested in one array operation, shortest firs
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
-    Each hole, or group of touching holes, is joined to the rest by the shortest line inside the polygon (a bridge). The
-    bridge becomes two sides of opposite directions. points (n, 2) [px], all distinct; loops: indices of points, first
-    the outer loop, clockwise on the screen, then holes, counter-clockwise; loops may touch in common points. flat
-    [px2]: see Walls.
+    Each hole, or group of touching holes, is joined to the outer loop or to a joined hole by the shortest line inside
+    the polygon (a bridge). A bridge becomes two sides of opposite directions. points (n, 2) [px], all distinct; loops:
+    arrays of indices of points: first the outer loop, clockwise on the screen, then holes, counter-clockwise. Loops may
+    touch at common points. flat [px2]: see Walls.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -159,9 +163,9 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join one group of touching holes to the group of the outer loop, by the shortest line that nothing blocks.
+        """Join one group of touching holes to the group of the outer loop by the shortest unobstructed line.
 
-        The group of the leftmost hole is joined, because no other hole blocks the view to its left.
+        The group with the leftmost hole is joined, because no other hole obstructs lines to its left.
         """
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
@@ -210,9 +214,9 @@ class _Bridges:
         return found
 
     def _onward(self, a, b, ways):
-        """Return the end of the side that comes after side a -> b in its ring, with the inside on the right.
+        """Return the end point (index) of the side that follows side a -> b in its ring; the inside is on the right.
 
-        ways: the points to which sides from b lead.
+        a, b: indices of points; ways: indices of the points to which sides lead from b.
         """
         if len(ways) == 1:
             return ways[0]
@@ -235,8 +239,8 @@ ROWS = 256  # polygon edges compared with all others in one array operation: bou
 def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndarray]:
     """Check a polygon with holes. Return [outer ring, holes...], (n, 2) each, without repeated and collinear corners.
 
-    In the result the outer ring is clockwise on the screen, the holes are counter-clockwise. The given rings may have
-    either winding. Holes may touch the outer ring and each other in common corners. Raises ValueError for a ring of
+    In the result the outer ring is clockwise on the screen, the holes are counter-clockwise; the arguments may have
+    either winding. Holes may touch the outer ring and each other at common corners. Raises ValueError for a ring of
     fewer than three corners or without area, for edges that meet (the message names both), and for a hole that is not
     inside.
     """
@@ -266,9 +270,9 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
 
 def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
-    """Return a ring (n, 2) [px] without repeated and collinear corners.
+    """Return a ring (n, 2) [px] without its repeated and collinear corners.
 
-    flat [px2]: a corner is collinear if twice the area of the triangle with its neighbours is at most this.
+    flat [px2]: a corner is collinear if twice the area of the triangle with its neighbours is at most `flat`.
     """
     while len(ring) > 2:
         before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
@@ -283,7 +287,10 @@ def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
 
 
 def crossings(points: np.ndarray, ring: np.ndarray) -> np.ndarray:
-    """Return, for each point (m, 2), how often a ray to the right crosses a ring (n, 2). An odd number means inside."""
+    """Return how often a ray to the right from each point crosses a ring: (m,). Odd: the point is inside.
+
+    points (m, 2), ring (n, 2) [px].
+    """
     following = np.roll(ring, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     spans = (ring[:, 1] > y) != (following[:, 1] > y)
@@ -338,7 +345,10 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Return (m,) bool: whether edges a[i] and b[i] meet, except in a permitted common corner. a[i] < b[i]."""
+        """Return (m,) bool: whether edges a[i] and b[i] meet, except at a permitted common corner.
+
+        a, b (m,): indices of edges, a[i] < b[i].
+        """
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -377,9 +387,10 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """One of the best convex pieces beside line (i, k). first: first corner after i; last: last corner before k.
+    """A convex piece beside line (i, k) that may be part of the best decomposition.
 
-    grown: the smaller piece that it extends; None: line (i, last) is a cut or a side.
+    first: first corner of the piece after i; last: its last corner before k; grown: the smaller piece that this one
+    extends, or None if the line (i, last) is a cut or a side.
     """
 
     first: int
@@ -388,9 +399,9 @@ class _End(NamedTuple):
 
 
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
-    """Divide a ring, corners (n, 2) [px], into the fewest convex pieces by cuts between its corners.
+    """Divide a ring into the fewest convex pieces by cuts between its corners. Return the corner indices of each piece.
 
-    Return the corner indices of each piece, clockwise on the screen. Pieces may have collinear corners. flat [px2]: see
+    Each piece is clockwise on the screen and may have collinear corners. corners (n, 2) [px]: the ring; flat [px2]: see
     Walls. O(n^3).
     """
     return _Search(Ring(corners, flat)).pieces()
@@ -416,7 +427,7 @@ class _Search:
                     self._best(i, i + gap, [j for j in after[i] if j < i + gap])
 
     def _turn(self, a, b, c):
-        """Return whether the path from corner a over b to c is straight or turns clockwise on the screen."""
+        """Return whether the path a, b, c of corners (indices) is straight or turns clockwise on the screen at b."""
         x, y = self.x, self.y
         return (x[b] - x[a]) * (y[c] - y[b]) - (y[b] - y[a]) * (x[c] - x[b]) >= -self.flat
 
@@ -473,7 +484,7 @@ def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
     """Return rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
     Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
-    no removal makes sides cross or touch. rings: simple rings, the outer one first, then holes.
+    sides never cross or touch as a result. rings: simple rings, the outer ring first, then holes.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -518,7 +529,7 @@ class _Work:
     def _depth(self, k):
         """Return the error [px] of removing corner k: the largest distance of the removed corners from the new side.
 
-        Corners that were removed before are included.
+        Corners that were removed earlier and are replaced by the same side are included.
         """
         a, b = int(self.before[k]), int(self.after[k])
         (ax, ay), (bx, by) = self.points[a].tolist(), self.points[b].tolist()
@@ -532,7 +543,7 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Return whether corner k can be removed: the triangle that this cuts off or fills contains no other corner.
+        """Return whether corner k can be removed: the triangle of k and its two neighbours contains no other corner.
 
         Corners on the triangle's sides count as contained.
         """
@@ -566,11 +577,11 @@ ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the sc
 def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance: float = 0.0) -> list[ConvexPart]:
     """Divide a simple polygon with holes into convex parts of at most 16 corners. Return [(corners, inner)].
 
-    corners (k, 2): clockwise on the screen, topmost, then leftmost corner first; inner (k,) bool: whether the side k ->
-    k + 1 is shared with another part. All corners are corners of the polygon. A collinear corner is kept only between
-    an inner side and a side of the boundary.
+    corners (k, 2): clockwise on the screen, starting with the topmost, then leftmost corner; inner (k,) bool: whether
+    the side k -> k + 1 is shared with another part. All corners are corners of the polygon. A collinear corner is kept
+    only between an inner side and a side of the boundary.
 
-    outer (n, 2), holes [(m, 2)] [px]: in either winding. Holes may touch the outer ring and each other only in common
+    outer (n, 2), holes [(m, 2)] [px]: in either winding. Holes may touch the outer ring and each other only at common
     corners. tolerance [px] >= 0: bumps and notches are removed first, as long as each removed corner is within
     tolerance of the side that replaces it and no sides cross; with 0 the parts cover exactly the polygon. Raises
     ValueError for edges that meet or cross (the message names both), for rings without area or of fewer than three
@@ -581,9 +592,9 @@ def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance:
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """Return the convex parts of rings that are known to be simple, in the format of convex_parts. Nothing is checked.
+    """Return the convex parts of simple rings, in the format of convex_parts. The rings are not checked.
 
-    The outer ring is clockwise on the screen, holes are counter-clockwise.
+    The outer ring is first and clockwise on the screen, holes follow and are counter-clockwise.
     """
     together = np.concatenate(rings)
     base = together.min(axis=0)
@@ -612,9 +623,10 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Return a part's corners and `inner` flags without collinear corners, its topmost, then leftmost corner first.
+    """Return a part's (corners, inner) without collinear corners, starting with its topmost, then leftmost corner.
 
-    A collinear corner at which `inner` changes is kept. flat: see Walls.
+    A collinear corner between an inner and an outer side is kept. corners (k, 2) [px]; inner (k,) bool: see
+    convex_parts; flat: see Walls.
     """
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
@@ -626,7 +638,7 @@ def _tidy(corners, inner, flat):
 
 
 def _halved(points, rings, flat):
-    """Split rings by cuts until each is convex or has at most LARGEST corners. Return the rings.
+    """Split rings by cuts until each is convex or has at most LARGEST corners. Return the resulting rings.
 
     points (n, 2) [px]; rings: arrays of indices of points; flat: see Walls.
     """
@@ -644,9 +656,9 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return two corners (indices) between which a short cut splits a ring into parts of similar size.
+    """Return two corners (indices) of a ring; a short cut between them splits the ring into parts of similar size.
 
-    The cut starts at a reflex corner. sides: Ring.
+    The cut starts at a reflex corner. sides: the Ring.
     """
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
@@ -671,7 +683,7 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Return convex pieces after merging them across common sides, if the union is convex with at most 16 corners.
+    """Merge convex pieces across common sides if their union is convex with at most 16 corners. Return the pieces.
 
     The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points; flat: see Walls.
     """
@@ -699,9 +711,9 @@ def _joined(points, pieces, flat):
 
 
 def _at_most(piece, most):
-    """Halve a convex piece until each part has at most `most` corners. Return the parts.
+    """Halve a convex piece until each resulting piece has at most `most` corners. Return the resulting pieces.
 
-    piece: indices of its corners.
+    piece: list of the indices of its corners.
     """
     if len(piece) <= most:
         return [piece]

@@ -1,7 +1,7 @@
 """Files of precomputed mask outlines. The key of an outline is a hash of the pixels, the settings and the code.
 
-A game ships such a file with its art and opens it with `use`. Then a start without compiled kernels does not compute
-the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key changes.
+A game ships such a file with its art and registers it with `use`. Then a start without compiled kernels need not
+compute the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key changes.
 """
 
 import hashlib
@@ -19,7 +19,7 @@ FOLDERS = ("outline", "raster")  # subpackages whose code, with math2d.py and se
 
 
 class Parts(NamedTuple):
-    """The convex parts of an outline: rounded polygons, their corners listed part after part."""
+    """Convex parts of an outline: rounded polygons, whose corners are listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px]
     inner: np.ndarray  # (n,) bool
@@ -33,7 +33,7 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Add a file made by `write` to those in which `fitted` looks up outlines. The file is read at the next lookup.
+    """Add a file made by `write` to the files in which `fitted` looks up outlines. It is read at the next lookup.
 
     A missing or damaged file counts as empty.
     """
@@ -41,16 +41,16 @@ def use(path: Path) -> None:
 
 
 def forget() -> None:
-    """Remove all files and their outlines: outlines are then computed, until `use` is called again."""
+    """Remove all files and the outlines read from them. Then outlines are computed, until `use` is called again."""
     _files.clear()
     _kept.clear()
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored convex parts for these pixels, or the result of fit() if none are stored.
+    """Return the stored convex parts for the outline of these pixels, or the result of fit() if none are stored.
 
-    name: method by which fit() computes the parts; it is part of the key; pixels[row, col] bool; smooth [px]: see
-    contour.outline.
+    pixels[row, col] bool; smooth [px]: see contour.outline; name: name of the method by which fit() computes the parts,
+    which is part of the key.
     """
     key = _key(name, pixels, smooth)
     while _files:

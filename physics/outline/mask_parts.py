@@ -1,4 +1,4 @@
-"""Convex decomposition of a mask's outline. Flags mark the inner sides, which two parts share."""
+"""Convex decomposition of a mask's outline. Flags mark the inner sides, which are shared by two parts."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -22,9 +22,9 @@ from physics.settings import MAX_CORNERS
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
     """Decompose a polygon with holes into few convex parts, fast. Return [(corners (k, 2), inner (k,) bool)].
 
-    Corners are clockwise on the screen; inner: whether the side k -> k + 1 is shared with another part. rings: the
-    outer ring (n, 2) [px], clockwise on the screen, then holes, counter-clockwise. The rings must be simple, and their
-    coordinates such that products have no rounding error; this is not checked.
+    Corners are clockwise on the screen [px]; inner: whether the side k -> k + 1 is shared with another part. rings: the
+    outer ring (n, 2) [px], clockwise on the screen, then holes, counter-clockwise. The rings must be simple, and
+    products of their coordinates must have no rounding error; neither is checked.
     """
     points = np.concatenate(rings)
     counts = np.array([len(ring) for ring in rings])
@@ -43,10 +43,10 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 
 @subkernel
 def join_touching(n, sides_inout):
-    """Join rings that touch in a common corner into one ring that passes this corner twice. O(n²).
+    """Join rings that touch at a common corner into one ring that passes this corner twice. O(n²).
 
-    n: number of sides (SIDE rows). The joined ring gets the lower of both numbers SIDE.apart, so it counts as a hole
-    only if both rings do.
+    n: number of sides (SIDE rows). The joined ring gets the lower of the two SIDE.apart values, so it is a hole only if
+    both rings are holes.
     """
     for a in range(n):
         p = sides_inout[a]
@@ -67,7 +67,7 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Decompose a polygon into convex parts. Return their number, or -1 if the rings are not a polygon.
+    """Decompose a polygon with holes into convex parts. Return their number, or -1 if the rings are not a polygon.
 
     points (n, 2) [px]: corners ring after ring, the outer ring first; counts (rings,): number of corners of each ring;
     most: largest number of corners of a part; sides_inout: SIDE rows, scratch; corners_out (n, 2) [px]: corners part
@@ -94,7 +94,7 @@ def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_
 
 
 class Part(NamedTuple):
-    """A convex part of an outline in raster pixels: a polygon, capsule or disc, rounded by a radius."""
+    """Convex part of an outline in raster pixels: a polygon, capsule or disc, rounded by a radius."""
 
     corners: np.ndarray  # (k, 2) float64: 1 to 16 corners, clockwise on the screen; 1: a disc, 2: a capsule
     inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part
@@ -105,7 +105,7 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
     """Return the convex parts of the outline of solid[row, col] bool; [] without solid pixels.
 
     A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
-    (few_parts), each with its topmost, then leftmost corner first. A full rectangle is one part. smooth [px]: see
+    (few_parts), each starting with its topmost, then leftmost corner. A full rectangle is one part. smooth [px]: see
     contour.outline; the union of the parts is as near to the pixels' edges as the result of contour.outline.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))

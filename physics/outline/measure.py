@@ -21,7 +21,7 @@ Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a 
 
 
 class Stretch(NamedTuple):
-    """A section of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
+    """Section of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
@@ -50,8 +50,8 @@ class Stretch(NamedTuple):
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
     """Return the boundary of a union of hulls as stretches with the inside on their right; [] without hulls.
 
-    A side that two hulls share is not part of the boundary. Only hulls with overlapping bounds are compared. O(sides²)
-    at worst.
+    A side shared by two hulls is not part of the boundary. Only hulls with overlapping bounding boxes are compared.
+    O(sides²) at worst.
     """
     if not hulls:
         return []
@@ -79,7 +79,10 @@ def line(start: np.ndarray, end: np.ndarray) -> Stretch:
 
 
 def _around(corners, radius):
-    """Return the boundary of one rounded hull: sides moved outward by the radius, and arcs of up to a quarter turn."""
+    """Return the boundary of one rounded hull: sides moved outward by the radius, and arcs of up to a quarter turn.
+
+    corners (k, 2) [px]; radius [px]. The result is a list of stretches.
+    """
     if len(corners) == 1:
         bounds = [(k * math.pi / 2.0, math.pi / 2.0) for k in range(4)]
         return [_arc(corners[0], radius, first, turn) for first, turn in bounds]
@@ -106,7 +109,7 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Return the fractions of a stretch's length at which other stretches begin, end or cross it, with 0 and 1.
+    """Return the fractions of a stretch's length at which other stretches start, end or cross it, and 0 and 1; sorted.
 
     side: the stretch; others: the other stretches; near [px]: a smaller distance counts as 0.
     """
@@ -123,9 +126,9 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """Return the fraction of a stretch's length at which a point lies; -1 if it is not on the stretch's line or circle.
+    """Return the fraction of a stretch's length at which a point is; -1 if it is not on the stretch's line or circle.
 
-    side: the stretch; near [px]: a smaller distance of the point from the line or circle counts as 0.
+    side: the stretch; near [px]: the point counts as on the line or circle up to this distance.
     """
     if side.radius == 0.0:
         along = side.end - side.start
@@ -139,7 +142,10 @@ def _share(side, point, near):
 
 
 def _line_meets(side, other):
-    """Return the points where the infinite line of a straight stretch meets the line or circle of another stretch."""
+    """Return the points where the infinite line of a straight stretch meets the line or circle of another stretch.
+
+    side: the straight stretch; other: the other stretch. The list has 0 to 2 points.
+    """
     along = side.end - side.start
     if other.radius > 0.0:
         return _on_circle(side.start, along, other.center, other.radius)
@@ -152,7 +158,10 @@ def _line_meets(side, other):
 
 
 def _arc_meets(side, other):
-    """Return the points where the full circle of an arc meets the line or circle of another stretch."""
+    """Return the points where the full circle of an arc meets the line or circle of another stretch.
+
+    side: the arc; other: the other stretch. The list has 0 or 2 points.
+    """
     if other.radius == 0.0:
         return _on_circle(other.start, other.end - other.start, side.center, side.radius)
     apart = other.center - side.center
@@ -166,9 +175,10 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the two points where a line meets a circle. start, along: a point on the infinite line and its direction.
+    """Return the two points where a line meets a circle.
 
-    If the line misses the circle, the line's point nearest to the centre is returned twice.
+    If the line misses the circle, its point nearest to the centre is returned twice. start, along: a point on the
+    infinite line and the line's direction; center, radius: the circle.
     """
     length = math.hypot(*along)
     along = along / length
@@ -181,9 +191,9 @@ def _on_circle(start, along, center, radius):
 def _covered(stretch, hull, earlier, near):
     """Return whether another hull removes a stretch from the boundary of the union of hulls.
 
-    A stretch inside the other hull is removed. A stretch on that hull's boundary is removed if the two hulls lie on
-    opposite sides of it. If both lie on the same side, only the stretch of the first hull is kept. earlier: whether the
-    other hull comes first; near [px]: a smaller distance counts as 0.
+    A stretch inside the other hull is removed. A stretch on the boundary of the other hull is removed if the two hulls
+    are on opposite sides of it. If both are on the same side, only the stretch of the first hull is kept. hull: the
+    other hull; earlier: whether it precedes the stretch's own hull; near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -198,7 +208,10 @@ def _covered(stretch, hull, earlier, near):
 
 
 def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
-    """Return the distance [px] of a point from a rounded hull, negative inside, and the hull's outward normal there."""
+    """Return (distance [px] of a point from a rounded hull, outward unit normal of the hull there).
+
+    The distance is negative inside the hull.
+    """
     corners, radius = hull
     if len(corners) == 1:
         away = point - corners[0]
@@ -237,9 +250,9 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the Moments of the figure inside a closed boundary. If its area is 0, the centre is nan, the inertia 0.
+    """Return the Moments of the figure inside a closed boundary.
 
-    around: stretches of the boundary.
+    If the area is 0, the centre is nan and the inertia 0. around: stretches of the boundary.
     """
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
@@ -256,9 +269,10 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return quadrature points (n, 16, 2) [px] on n stretches, and the derivatives (n, 16, 2) of position by fraction.
+    """Return (quadrature points on n stretches, derivatives of position there), both (n, 16, 2) [px].
 
-    around: the stretches; the fraction of a stretch's length is 0 at its start, 1 at its end.
+    The derivatives are with respect to the fraction of a stretch's length, which is 0 at its start and 1 at its end.
+    around: the stretches.
     """
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
@@ -284,7 +298,7 @@ ROWS = 1 << 20  # distances computed in one array operation: bounds the memory
 
 
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
-    """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point on one from the other.
+    """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point of one from the other one.
 
     The result is at most 1e-6 px too small. It is 0 if both boundaries are empty, inf if only one is empty.
     """
@@ -294,7 +308,7 @@ def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
 
 
 class _Figure:
-    """The lines and the arcs of a boundary as arrays, from which distances of many points are computed at once."""
+    """Lines and arcs of a boundary as arrays, from which the distances of many points are computed at once."""
 
     def __init__(self, stretches):
         lines = [each for each in stretches if each.radius == 0.0]
@@ -346,9 +360,9 @@ def _farthest(a, b, best):
 def _looked_at(some, other, best):
     """Measure the ends and middles of stretches. Return (largest distance [px] so far, stretches to divide further).
 
-    A stretch is returned as (upper bound [px] of the distance of its points, stretch) if it may contain a point that is
-    farther away than the largest distance so far. some: the stretches to measure; other: _Figure from which distances
-    are measured; best [px]: largest distance found before.
+    The distances are from the boundary `other`, a _Figure. The second value lists (upper bound [px] of the distance of
+    the stretch's points, stretch) for each stretch that may contain a point farther away than the largest distance so
+    far. some: the stretches to measure; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -373,7 +387,7 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 
 
 class Cells(NamedTuple):
-    """A grid of columns and rows of unequal size, whose lines are the pixel edges of several masks."""
+    """Grid of columns and rows of unequal size, whose lines are the pixel edges of several masks."""
 
     x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
@@ -389,11 +403,11 @@ class Sums(NamedTuple):
     second: float  # integral of the squared distance from the base [px4]
 
     def plus(self, other: "Sums", share: float = 1.0) -> "Sums":
-        """Return these sums plus `share` times the other sums, which have the same base point."""
+        """Return the sum of these Sums and `share` times `other`. Both must have the same base point."""
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return the Moments of the figure: area, centre and inertia. base [px]: base point of these sums."""
+        """Return the Moments of the figure: area, centre and inertia. base [px]: base point of these Sums."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -404,7 +418,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return the Sums of a figure about a base point [px], computed from its Moments. found: the Moments."""
+    """Return the Sums of a figure about the base point [px], computed from its Moments `found`."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]
@@ -412,7 +426,10 @@ def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
 
 
 def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
-    """Return Cells with the pixels of several masks inside a window (left, top, right, bottom) [px]."""
+    """Return Cells with the pixels of several masks inside a window (left, top, right, bottom) [px].
+
+    masks: (solid[row, col] bool, left [px], top [px]) each, the position of the mask's top left corner.
+    """
     lines = []
     for axis in (0, 1):
         low, high = window[axis], window[axis + 2]
@@ -427,16 +444,17 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return, for each gap between grid lines, the row (or column) of a mask that lies in the gap; -1 outside the mask.
+    """Return, for each gap between adjacent grid lines, the row (or column) of a mask in the gap; -1 outside the mask.
 
-    lines [px]: positions of the grid lines; first [px]: position of the mask's first row; size: number of its rows.
+    lines [px]: positions of the grid lines; first [px]: position of the mask's first row (or column); size: number of
+    its rows (or columns).
     """
     place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
     return np.where((place >= 0) & (place < size), place, -1)
 
 
 def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
-    """Return the Sums of all cells about a base point [px]. weights (h, w): density of each cell."""
+    """Return the Sums of all cells about the base point [px]. weights (h, w): density of each cell."""
     width, height = np.diff(cells.x), np.diff(cells.y)
     x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
     in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
@@ -450,9 +468,9 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 
 
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
-    """Return the Sums, about a base point [px], of the part of the solid cells that is inside a boundary.
+    """Return the Sums about the base point [px] of the solid area inside a closed boundary.
 
-    around: stretches of the boundary. A cell is solid if at least one mask has a solid pixel there.
+    A cell is solid if at least one mask has a solid pixel there. around: stretches of the boundary.
     """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
@@ -474,9 +492,10 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Return, for each point, the integral of x ** power over the solid cells to its left in its row: (n, 16).
+    """Return the integral of x ** power over the solid cells to the left of each point, in the point's row: (n, 16).
 
-    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): positions relative to `base`.
+    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16) [px]: positions of the points
+    relative to `base`.
     """
     lines = cells.x - base
     filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # there is no cell to the right of the last line
@@ -488,7 +507,10 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """Return a stretch cut at all grid lines that it crosses. Each part lies in one column and one row of cells."""
+    """Return the parts of a stretch after cutting it at all grid lines that it crosses.
+
+    Each part is in one column and one row of cells.
+    """
     shares = [np.array([0.0, 1.0])]
     for axis, lines in enumerate((cells.x, cells.y)):
         if stretch.radius == 0.0:
@@ -526,7 +548,7 @@ class Measured(NamedTuple):
 def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
     """Return how accurately hulls replace the pixels solid[row, col] bool.
 
-    hulls: [(corners (k, 2) clockwise on the screen, radius)] in raster pixels.
+    hulls: [(corners (k, 2) [px] clockwise on the screen, radius [px])] in raster pixels.
     """
     around = boundary(hulls)
     cracks = edges(solid)

@@ -1,4 +1,4 @@
-"""Paths along pixel edges between solid and clear pixels, and the best straight lines along a path."""
+"""Paths along the edges between solid and clear pixels, and the best straight lines along a path."""
 
 import math
 from typing import NamedTuple
@@ -70,7 +70,7 @@ def is_solid(pixels, x, y, quadrant):
 
 @subkernel
 def is_own(window, x, y, quadrant):
-    """Return whether a pixel beside corner (x, y) of the pixel grid belongs to the tile. quadrant: see is_solid."""
+    """Return whether a pixel beside corner (x, y) of the pixel grid belongs to the tile. quadrant: as in is_solid."""
     q = quadrant & 3
     column = x - (1 if q == 1 or q == 2 else 0)
     row = y - (1 if q >= 2 else 0)
@@ -79,9 +79,9 @@ def is_own(window, x, y, quadrant):
 
 @subkernel
 def length_from(pixels, x, y, direction):
-    """Return the length [px] of the straight row of pixel edges that starts at a corner, at most SHARP.
+    """Return the length [px] of the straight row of pixel edges that starts at corner (x, y), at most SHARP.
 
-    direction: the direction of the row, in which at least one edge must leave the corner.
+    direction: direction of the row (0 right, 1 down, 2 left, 3 up), which must have at least one edge.
     """
     right = is_solid(pixels, x, y, direction)
     count = 1
@@ -96,10 +96,10 @@ def length_from(pixels, x, y, direction):
 
 @subkernel
 def is_joined(window, x, y):
-    """Return whether paths connect the two diagonal solid pixels at corner (x, y), by passing from one to the other.
+    """Return whether paths connect the two diagonal solid pixels at corner (x, y).
 
-    The result is False where two long runs meet, because such a corner is fixed. It is also False on the border of the
-    tile, because the neighbouring tile would find another path. window: see Window.
+    The result is False where two long runs (straight rows of pixel edges) meet, because such a corner is fixed. It is
+    also False on the border of the tile, because the neighbouring tile might find another path. window: see Window.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -110,7 +110,10 @@ def is_joined(window, x, y):
 
 @subkernel
 def onward(window, x, y, direction):
-    """Return the direction in which a path leaves corner (x, y). direction: that in which it arrives there."""
+    """Return the direction in which a path leaves corner (x, y), after arriving there in `direction`.
+
+    Directions are 0 right, 1 down, 2 left, 3 up.
+    """
     if not is_solid(window.pixels, x, y, direction):
         if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
             return (direction + 3) & 3
@@ -120,7 +123,10 @@ def onward(window, x, y, direction):
 
 @subkernel
 def backward(window, x, y, direction):
-    """Return the direction in which a path arrives at corner (x, y). direction: that in which it leaves the corner."""
+    """Return the direction in which a path arrives at corner (x, y), which it leaves in `direction`.
+
+    Directions are 0 right, 1 down, 2 left, 3 up.
+    """
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
             return (direction + 1) & 3
@@ -130,9 +136,10 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """Return the (x, y, direction) that a path has `cracks` pixel edges before corner (x, y).
+    """Return (x, y, direction) of a path at the corner that is `cracks` pixel edges before corner (x, y).
 
-    direction: the direction in which the path leaves the corner; window: see Window.
+    The direction is that in which the path leaves the corner, both in the result and in the argument `direction`.
+    window: see Window.
     """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
@@ -143,10 +150,10 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Return for how many pixel edges a path stays in the tile, starting at corner (x, y).
+    """Return the number of pixel edges for which a path stays in the tile, starting at corner (x, y).
 
-    For a loop it is the loop's length. direction: the direction in which the path leaves the corner; marks_inout [row,
-    col] uint8: set for each solid pixel below a horizontal pixel edge of the path; window: see Window.
+    For a loop inside the tile this is the loop's length. direction: the direction in which the path leaves the corner;
+    marks_inout [row, col] uint8: set to 1 for each solid pixel whose upper edge is on the path; window: see Window.
     """
     first_x, first_y = x, y
     first = direction
@@ -167,7 +174,8 @@ def follow(window, x, y, direction, marks_inout):
 def record(window, x, y, direction, cracks, runs_out):
     """Write the runs (RUN rows) of a path of `cracks` pixel edges that starts at corner (x, y). Return their number.
 
-    direction: the direction in which the path leaves the corner; window: see Window.
+    A run is a straight row of pixel edges. direction: the direction in which the path leaves the corner; window: see
+    Window.
     """
     count = -1
     turned = True
@@ -219,8 +227,8 @@ PLACE = np.dtype(
 class Prices(NamedTuple):
     """Weights of a line's errors in the line search, relative to the cost of one corner.
 
-    An outline of pixels is replaced by few straight lines. Each line costs 1 for its corner, plus its errors times
-    these weights.
+    The search replaces an outline of pixels by few straight lines. Each line costs 1 for its corner, plus its errors
+    times these weights.
     """
 
     area: float  # [1/px2] cost of the area that the line adds or removes
@@ -232,7 +240,7 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 
 @subkernel
 def stays(runs, count, k, closed):
-    """Return whether smoothing keeps the corner at the start of run k: a corner between long runs, or of a rectangle.
+    """Return whether smoothing keeps the corner at the start of run k: it is between long runs, or of a rectangle.
 
     runs: RUN rows, of which the first `count` are the path; closed: whether the path is closed.
     """
@@ -254,10 +262,10 @@ def stays(runs, count, k, closed):
 
 @subkernel
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
-    """Write row n of places: a candidate (x, y) for a corner of the outline.
+    """Write row n of the PLACE rows places_inout: a candidate (x, y) for a corner of the outline.
 
-    run: the RUN row it lies on; at: position along the path, in pixel edges; corner: whether the path turns there;
-    allowed: whether a line may end there. places_inout: PLACE rows.
+    run: RUN row that contains the candidate; at: position along the path, in pixel edges; corner: whether the path
+    turns there; allowed: whether a line may end there.
     """
     place = places_inout[n]
     place.x, place.y = x, y
@@ -275,10 +283,10 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 
 @subkernel
 def put_run(n, run, start, end, offset, places_inout):
-    """Append up to three candidate corners (PLACE rows) inside a run. Return the number of places.
+    """Append up to three candidate corners (PLACE rows) inside a run. Return the new number of PLACE rows.
 
-    n: number of places before. Only places between `start` and `end`, in pixel edges along the path, are added. offset:
-    number added to their positions along the path, for the second turn around a loop.
+    n: number of rows before; run: RUN row. Only candidates between `start` and `end` are added, positions along the
+    path in pixel edges. offset: number added to the positions, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -293,10 +301,10 @@ def put_run(n, run, start, end, offset, places_inout):
 
 @subkernel
 def put_loop(runs, count, cracks, places_out):
-    """Write the candidate corners (PLACE rows) of two turns around a loop, then the first one once more.
+    """Write the candidate corners (PLACE rows) of two turns around a loop, followed by the first candidate once more.
 
-    Return (number of places of one turn, row of the first fixed corner or -1). No line may pass a fixed corner. runs:
-    RUN rows, of which the first `count` are the loop; cracks: number of pixel edges of the loop.
+    Return (number of rows of one turn, row of the first fixed corner or -1). No line may pass a fixed corner. runs: RUN
+    rows, of which the first `count` are the loop; cracks: number of pixel edges of the loop.
     """
     n = 0
     around = 0
@@ -323,8 +331,8 @@ def put_loop(runs, count, cracks, places_out):
 def faults_of_angles(begin, to):
     """Return the cost of a line's angles to a curve: (sin² at its start + sin² at its end) · the line's length [px].
 
-    begin, to: PLACE rows of the ends of the line, which hold the direction of the curve. At an end where the line leads
-    backwards along the curve, sin² counts as 1.
+    begin, to: PLACE rows of the line's ends, which hold the direction of the curve there. At an end where the line is
+    directed against the curve, sin² is replaced by 1.
     """
     x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
@@ -339,10 +347,10 @@ def faults_of_angles(begin, to):
 
 @subkernel
 def try_lines(start, last, reach, prices, places_inout):
-    """Lower the cost of each place to which a line from place `start` is cheaper than the best known (O'Rourke 1981).
+    """Lower the cost of each PLACE row that a line from row `start` reaches at a lower cost (O'Rourke 1981).
 
-    Lines to the places up to place `last` are tried. reach [px]: largest distance of a line from the pixel edges;
-    prices: Prices; places_inout: PLACE rows.
+    Lines to the rows after `start`, up to row `last`, are tried. reach [px]: largest distance of a line from the pixel
+    edges; prices: Prices; places_inout: PLACE rows.
     """
     begin = places_inout[start]
     x, y = begin.x, begin.y
@@ -383,10 +391,10 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Find the lines of least total cost from place `first` to place `last`. Return the number of places at their ends.
+    """Find the lines of least total cost from PLACE row `first` to row `last`. Return the number of their ends.
 
-    The result is 0 if no lines reach the last place. chain_out: indices of the places, from last to first; reach [px]:
-    largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(places * places of a
+    The number is 0 if no lines reach row `last`. chain_out: rows of the lines' ends, from `last` to `first`; reach
+    [px]: largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(rows * rows of a
     line).
     """
     for k in range(first, last + 1):
@@ -407,11 +415,11 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Find the lines of least total cost around a loop. Return the number of places where lines end.
+    """Find the lines of least total cost around a loop. Return the number of line ends; the first one is counted twice.
 
-    around: number of places of one turn; anchor: row of a fixed corner, which no line may pass, -1 for none; reach
-    [px]: largest distance of a line from the pixel edges; places_inout: result of put_loop; chain_out: indices of the
-    places where lines end, from last to first.
+    around: number of PLACE rows of one turn; anchor: row of a fixed corner, which no line may pass, or -1; reach [px]:
+    largest distance of a line from the pixel edges; places_inout: PLACE rows written by put_loop; chain_out: rows of
+    the line ends, from last to first.
     """
     begin = anchor
     if anchor < 0:

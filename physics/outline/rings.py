@@ -31,11 +31,11 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side that starts at (x, y) [px] to a ring. Return the new number of sides.
+    """Append a side that starts at (x, y) [px] to a ring. Return the new number of SIDE rows.
 
-    A side that starts where the last side starts is not added; only the last side's flag is replaced by `inner`. n:
-    number of sides before; first: row of the ring's first side; inner: whether the polygon continues beyond the side.
-    sides_inout: SIDE rows.
+    If the last side starts at the same point, no side is added, and the last side's flag `inner` is replaced. n: number
+    of rows before; first: row of the ring's first side; inner: whether the polygon continues on the other side of the
+    side. sides_inout: SIDE rows.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -54,10 +54,10 @@ def put_side(n, first, x, y, inner, sides_inout):
 
 @subkernel
 def close_ring(n, first, sides_inout):
-    """Close a ring: link its last side to its first, and remove collinear corners between sides of equal `inner`.
+    """Link a ring's last side to its first, and remove collinear corners between sides of equal `inner`.
 
-    Return the number of sides. A ring of fewer than three sides is removed. n: number of sides before; first: row of
-    the ring's first side. sides_inout: SIDE rows.
+    Return the new number of SIDE rows. A ring of fewer than three sides is removed. n: number of rows before; first:
+    row of the ring's first side. sides_inout: SIDE rows.
     """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
@@ -79,9 +79,9 @@ def close_ring(n, first, sides_inout):
 
 @subkernel
 def turn_at(sides, a, b, c):
-    """Return the cross product [px2] of the lines from corner a to b and from b to c.
+    """Return the cross product [px2] of the vectors from corner a to b and from b to c.
 
-    It is > 0 for a turn that is clockwise on the screen (convex). sides: SIDE rows.
+    It is > 0 for a turn that is clockwise on the screen (convex). a, b, c: rows of the corners in `sides`, SIDE rows.
     """
     p, q = sides[a], sides[b]
     r = sides[c]
@@ -90,10 +90,10 @@ def turn_at(sides, a, b, c):
 
 @subkernel
 def is_reflex(sides, k):
-    """Return whether the angle at corner k is more than half a turn, so that a cut is needed there.
+    """Return whether corner k needs a cut, because its interior angle is more than half a turn.
 
-    An angle of exactly half a turn between an inner side and a side on the outline also counts. So each side of a part
-    is either wholly inner or wholly on the outline. sides: SIDE rows.
+    An angle of exactly half a turn between an inner and an outer side also needs a cut. Thus each side of a part is
+    either wholly inner or wholly on the outline. sides: SIDE rows.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -102,7 +102,10 @@ def is_reflex(sides, k):
 
 @subkernel
 def faces(sides, k, m):
-    """Return whether the line from corner k to corner m starts strictly inside the ring of corner k."""
+    """Return whether the line from corner k to corner m starts strictly inside the ring of corner k.
+
+    k, m: rows of the corners in `sides`, SIDE rows.
+    """
     side = sides[k]
     to = sides[m]
     after = sides[side.next]
@@ -118,7 +121,10 @@ def faces(sides, k, m):
 
 @subkernel
 def blocks(sides, k, a, b):
-    """Return whether side k blocks the line between corners a and b: it crosses the line, or starts on it."""
+    """Return whether side k crosses the line between corners a and b, or starts on it.
+
+    k, a, b: rows in `sides`, SIDE rows.
+    """
     p, q = sides[a], sides[b]
     r = sides[k]
     s = sides[r.next]
@@ -137,9 +143,9 @@ def blocks(sides, k, a, b):
 
 @subkernel
 def sees(sides, a, b):
-    """Return whether the line between two corners a and b of one ring lies inside and meets no other side.
+    """Return whether the line between two corners a and b of one ring is inside the ring and meets no other side.
 
-    The time is O(corners). sides: SIDE rows.
+    O(corners). a, b: rows of the corners in `sides`, SIDE rows.
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -153,9 +159,9 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """Return whether the line between corner a of one ring and corner b of another lies inside and meets no side.
+    """Return whether the line between corners a and b of two different rings is inside both and meets no side.
 
-    count: number of sides of all rings. O(sides).
+    a, b: rows of the corners in `sides`, SIDE rows; count: number of sides of all rings. O(sides).
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -167,9 +173,9 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b, as two sides linked into their rings. Return the new number of sides.
+    """Append a cut between corners a and b, as two sides linked into their rings. Return the new number of SIDE rows.
 
-    n: number of sides before. sides_inout: SIDE rows.
+    n: number of rows before; a, b: rows of the corners; sides_inout: SIDE rows.
     """
     there = sides_inout[n]
     back = sides_inout[n + 1]
@@ -197,7 +203,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut that side k belongs to. The two pieces on its sides become one. sides_inout: SIDE rows."""
+    """Remove the cut that side k belongs to, so that the two pieces beside it become one. sides_inout: SIDE rows."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -232,8 +238,8 @@ def corners_of(sides, first):
 def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
-    Return the new number of sides, or -1 if a hole sees no other ring; then the rings are not a polygon. n: number of
-    sides before. sides_inout: SIDE rows.
+    Return the new number of SIDE rows, or -1 if a hole has no such line, because the rings are not a polygon. n: number
+    of rows before; sides_inout: SIDE rows.
     """
     while True:
         waiting = 0
@@ -257,10 +263,11 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """Return (corner of a hole, corner elsewhere) of the shortest line between them that meets no side.
+    """Return (corner of a hole, corner of another ring) of the shortest line between them that meets no side.
 
-    The result is (-1, -1) if there is none. The other corner belongs to a ring that is no hole, or to a hole that has
-    already been joined to such a ring (SIDE.apart is 0). n: number of sides; start: a side of the hole.
+    The result is (-1, -1) if there is no such line. The other ring is not a hole, or is a hole that has already been
+    joined to such a ring (SIDE.apart is 0). Corners are rows in `sides`. n: number of sides; start: row of a side of
+    the hole.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -281,7 +288,10 @@ def shortest_bridge(n, start, sides):
 
 @subkernel
 def is_resolved(sides, a, b):
-    """Return whether a cut from corner a to corner b leaves no angle of more than half a turn at corner a."""
+    """Return whether a cut from corner a to corner b leaves no angle of more than half a turn at corner a.
+
+    a, b: rows of the corners in `sides`, SIDE rows.
+    """
     side = sides[a]
     return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
 
@@ -290,9 +300,9 @@ def is_resolved(sides, a, b):
 def best_partner(sides, a, both):
     """Return the best corner for a cut from reflex corner a, or -1 if there is none.
 
-    Of the visible corners, the best is the one whose cut resolves the most reflex corners: a, the other corner or both.
-    If several resolve as many, it is the nearest. both: whether only a cut that resolves both corners is accepted;
-    sides: SIDE rows.
+    The best is the visible corner whose cut resolves the most reflex corners: a, the other corner or both. Among equals
+    it is the nearest. both: True to accept only a cut that resolves both corners. Corners are rows in `sides`, SIDE
+    rows.
     """
     best = -1
     best_score = 1 if both else -1
@@ -316,9 +326,10 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Add cuts until no reflex corner is left. Return the number of sides, or -1 if a corner sees no other corner.
+    """Add cuts until no reflex corner remains. Return the new number of SIDE rows, or -1 if no cut is possible.
 
-    sides_inout: SIDE rows.
+    n: number of rows before. No cut is possible if no other corner is visible from a reflex corner. sides_inout: SIDE
+    rows.
     """
     for both in (True, False):
         k = 0
@@ -336,10 +347,9 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Halve convex pieces until each has at most `most` corners.
+    """Halve convex pieces until each has at most `most` corners. Return the new number of SIDE rows.
 
-    n: number of rows in use before; sides_inout: SIDE rows, the sides of all pieces. Return the number of rows of
-    sides_inout in use afterwards.
+    n: number of rows before; sides_inout: SIDE rows, the sides of all pieces.
     """
     k = 0
     while k < n:
@@ -359,9 +369,9 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether a cut must stay, because the corner at the start of its side k would otherwise be reflex.
+    """Return whether a cut must stay, because without it the corner at the start of side k would be reflex.
 
-    m: the twin of side k; sides: SIDE rows.
+    k: row of one of the two sides of the cut; m: row of the other; sides: SIDE rows.
     """
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
@@ -372,9 +382,9 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Return whether the cut of side k can be removed: the pieces on its two sides then form one valid part.
+    """Return whether the cut that side k belongs to can be removed: the pieces beside it together form one valid part.
 
-    Together they have to be convex, with at most `most` corners.
+    A valid part is convex and has at most `most` corners. sides: SIDE rows.
     """
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):
@@ -391,9 +401,9 @@ def is_needless(sides, k, most):
 
 @subkernel
 def merge(n, most, sides_inout):
-    """Remove the cuts that are not needed for convex pieces of at most `most` corners, the longest first.
+    """Remove the cuts that are not needed to divide the polygon into convex pieces of at most `most` corners.
 
-    n: number of sides. sides_inout: SIDE rows.
+    The longest cut is tried first. n: number of SIDE rows; sides_inout: SIDE rows.
     """
     while True:
         best = -1
@@ -415,11 +425,11 @@ def merge(n, most, sides_inout):
 
 @subkernel
 def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
-    """Write the rings of convex pieces as parts. Return the number of parts.
+    """Write the rings of convex pieces to the output arrays as parts. Return the number of parts.
 
-    count: number of sides; low [px]: subtracted from all coordinates; corners_out (n, 2) [px]: corners part after part;
-    inner_out (n,): whether the side after each corner is inner; counts_out (parts,): number of corners of each part.
-    sides_inout: SIDE rows.
+    count: number of SIDE rows; low [px]: subtracted from all coordinates; corners_out (n, 2) [px]: corners part after
+    part; inner_out (n,): whether the side after each corner is inner; counts_out (parts,): number of corners of each
+    part. sides_inout: SIDE rows.
     """
     sides = sides_inout
     n = 0
@@ -457,8 +467,8 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
     """Decompose a polygon with holes into convex parts. Return their number, or -1 if the rings are not a polygon.
 
-    n: number of sides; most: largest number of corners of a part; low and the arrays: see put_parts. sides_inout: SIDE
-    rows.
+    n: number of SIDE rows; most: largest number of corners of a part; low, corners_out, inner_out, counts_out: see
+    put_parts. sides_inout: SIDE rows.
     """
     n = bridge(n, sides_inout)
     if n < 0:

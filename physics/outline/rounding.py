@@ -1,9 +1,9 @@
-"""Round pieces of masks as a core polygon with few corners and a radius: a disc has one corner, a rounded box four.
+"""Approximation of round pieces of masks by a core polygon with few corners and a rounding radius.
 
-A body that rolls as a polygon loses speed at every corner; a rounded body does not. Candidate cores are made from the
-symmetry of the piece (discs, capsules) and by moving the sides of its outline inward (other cores). Each candidate is
-compared with the edges of the pixels. Of the cores within the tolerances of contour.outline, the first with the fewest
-corners is used.
+The core of a disc has one corner, that of a rounded box four. A body that rolls as a polygon loses speed at every
+corner; a rounded body does not. Candidate cores are made from the symmetry of the piece (discs, capsules) and by moving
+the sides of its outline inward (other cores). Each candidate is compared with the edges of the pixels. The core with
+the fewest corners within the tolerances of contour.outline is used.
 """
 
 import math
@@ -33,15 +33,17 @@ Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], 
 
 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
-    """Return (convex corners, radius) of a rounded core that replaces one piece without holes, or None.
+    """Return (convex corners, radius) of a rounded core that replaces one piece of pixels without holes, or None.
 
     The core has 1 to 16 corners: 1 is a disc, 2 are a capsule. Its boundary is within `smooth` of the pixel edges, and
-    the pixel edges are within smooth + 0.21 of the boundary; centres of solid pixels are inside, centres of clear
-    pixels outside. For a disc both distances may be 0.13 px larger, and clear centres may be 0.2 px inside.
+    the pixel edges are within smooth + 0.21 of the boundary. Centres of solid pixels are inside, centres of clear
+    pixels outside. For a disc both distances may be 0.13 px larger, and centres of clear pixels may be up to 0.2 px
+    inside.
 
-    The result is None if no core is accurate enough, if the piece has a sharp corner, or if a polygon needs no more
-    corners. Otherwise it is the core with the fewest corners; of several, preferably one that keeps the sides of the
-    outline. cracks: loop of pixel edges around the piece; smooth [px]: see contour.outline.
+    The result is None if no core is accurate enough, if the piece has a sharp corner, or if a polygon without rounding
+    needs no more corners. Otherwise it is the core with the fewest corners. Of several such cores, one with sides on
+    the sides of the outline is preferred. cracks: loop of pixel edges around the piece; smooth [px]: see
+    contour.outline.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -60,9 +62,10 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield candidate cores: two discs, around the middle of the bounds and the centre of area, and up to two capsules.
+    """Yield candidate cores, corners (k, 2) [px]: the centres of two discs, then the lines of up to two capsules.
 
-    outer: outline of the piece; corners: the corners of its pixel edges.
+    The discs have the centre of the bounding box and the centre of area. outer (n, 2): outline of the piece; corners
+    (m, 2): corners of its pixel edges.
     """
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
@@ -79,12 +82,12 @@ def _round_ones(outer, corners):
 
 
 def _several(outer, judge):
-    """Return the core with the fewest corners that is made by moving the outline's sides inward by a radius, or None.
+    """Return (core, radius) with the fewest corners, made by moving the outline's sides inward by a radius; or None.
 
-    First, cores with exactly this radius are tried, the smallest first; their rounded sides lie on the outline's sides.
-    Sides that protrude a little would make stacks rise, and round corners would tip early. Other radii and moved
-    corners are used only if they save corners; of these the largest radius is tried first. outer: the outline; judge:
-    _Judge.
+    First, cores rounded by exactly this radius are tried, so that their sides are on the outline's sides; the smallest
+    radius is tried first. Protruding sides would raise stacks, and round corners would let them tip early. Then other
+    radii and moved corners are tried, the largest radius first; they are used only if they save corners. outer (n, 2):
+    the outline; judge: _Judge.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -103,7 +106,7 @@ def _several(outer, judge):
 
 
 def _moments(corners):
-    """Return (area, centre, unit vector of the longer principal axis) of a closed polygon, corners (n, 2) [px]."""
+    """Return (area [px2], centre [px], unit vector of the longer principal axis) of a polygon, corners (n, 2) [px]."""
     area = doubled_area(corners) / 2.0
     base = corners.mean(axis=0)
     p = corners - base
@@ -136,7 +139,7 @@ def _widest(hull):
 def _inset(hull, radius):
     """Return a convex polygon with its sides moved inward by a radius [px].
 
-    The result has fewer than 3 corners if nothing is left of the polygon.
+    hull (n, 2) [px]: corners of the polygon. If the result is empty, it has fewer than 3 corners.
     """
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
@@ -157,9 +160,9 @@ def _inset(hull, radius):
 class _Judge:
     """Tests of whether a rounded polygon (core) can replace one connected piece of pixels, within tolerances.
 
-    A core is an array of corners (k, 2) [px], to which a rounding radius is added. The tests measure its distance from
-    the edges of the piece's pixels, and whether centres of solid pixels are inside it and centres of clear pixels
-    outside.
+    A core is an array of corners (k, 2) [px], to which a rounding radius is added. The tests measure the distance of
+    its boundary from the edges of the piece's pixels. They also check that centres of solid pixels are inside and
+    centres of clear pixels outside.
     """
 
     def __init__(self, corners, reach):
@@ -183,9 +186,9 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return (core, radius) that is within the tolerances, or None.
+        """Return (core, radius) within the tolerances, or None if none is found.
 
-        The corners of the core are moved if necessary.
+        The radius is computed, and the corners of the core are moved if necessary.
         """
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
@@ -218,9 +221,10 @@ class _Judge:
         return core, float(radius)
 
     def disc(self, core):
-        """Return (core, radius) of the smallest disc around a given point that contains all centres of solid pixels.
+        """Return (centre, radius) of a disc around a given point that is within the tolerances, or None.
 
-        Return None if the disc is not accurate enough. core: the point, (1, 2) [px].
+        If no radius separates the centres of solid and clear pixels, it is the smallest disc with all centres of solid
+        pixels inside. core (1, 2) [px]: the given point.
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -236,14 +240,15 @@ class _Judge:
     def _room(self, core):
         """Return the length [px] of the range of radii with centres of solid pixels inside and of clear pixels outside.
 
-        The core (k, 2) is rounded by the radius. A negative result means that no radius separates the centres.
+        A negative result means that no radius separates these centres. core (k, 2) [px]: polygon to which the radius is
+        added.
         """
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return (core, radius): the core with the radius at which its area is nearest to that of the pixels, or None.
+        """Return (core, radius) with the radius that makes the core's area most nearly that of the pixels, or None.
 
-        The radius is limited by the tolerances. The result is None if no radius is within them.
+        The radius is limited by the tolerances; None means that no radius is within them. core (k, 2) [px].
         """
         if not _convex(core):
             return None
@@ -264,7 +269,7 @@ class _Judge:
     def _from_cracks(self, points):
         """Return the distance (m,) [px] of points (m, 2) from the nearest pixel edge.
 
-        Distances below 1 px are exact.
+        Distances below 1 px are exact. Larger ones may be too large, even inf.
         """
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
@@ -281,7 +286,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return the distance (m,) [px] of points (m, 2) from a core (k, 2) without rounding; negative inside the core."""
+    """Return the distance (m,) [px] of points (m, 2) from a core (k, 2), not rounded; negative inside the core."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -295,10 +300,10 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the directions (m, k, 2) in which the k corners of a core are moved in the search for a better core.
+    """Return the displacements (m, k, 2) of the k corners of a core that the search for a better core tries.
 
-    There are two directions for each corner: it alone moves to the right, or it alone moves down. A core of two corners
-    is also lengthened, rotated, and shifted along and across its line.
+    There are two for each corner: it alone moves to the right, or it alone moves down. A core of two corners is also
+    lengthened, rotated, and shifted along and across its line.
     """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():
@@ -318,7 +323,7 @@ def _convex(core):
 
 
 def _boundary(core, radius, spacing):
-    """Return points (m, 2) [px] on the boundary of a core rounded by a radius, about `spacing` px apart or less."""
+    """Return points (m, 2) [px] on the boundary of a core rounded by a radius, at most about `spacing` px apart."""
     if len(core) == 1:
         angles = np.arange(0.0, math.tau, spacing / radius)
         return core + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -1,4 +1,4 @@
-"""The convex hull, and the smallest box, capsule and circle around pixels or points."""
+"""Convex hull of pixels or points, and the smallest box, capsule and circle around them."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -18,7 +18,7 @@ class Sprite(Protocol):
 
 
 def mask_hull(mask: Sprite) -> np.ndarray:
-    """Return the corners (n, 2) [px] of the convex hull of a mask's pixels in body space, clockwise on the screen."""
+    """Return the convex hull (n, 2) [px] of a mask's solid pixels in body space, clockwise on the screen."""
     rows = np.flatnonzero(mask.solid.any(axis=1))
     left = mask.solid[rows].argmax(axis=1)
     right = mask.solid.shape[1] - mask.solid[rows, ::-1].argmax(axis=1)
@@ -39,11 +39,11 @@ def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
 
 
 def fewer_sides(corners: np.ndarray, most: int) -> np.ndarray:
-    """Return a polygon of at most `most` sides that contains a given convex polygon.
+    """Return a polygon (m, 2) [px] of at most `most` sides that contains a given convex polygon.
 
     corners (n, 2) [px]: the given polygon, clockwise on the screen. A side is removed by extending its two neighbours
-    until they meet, first the side whose removal adds the least area. A side whose neighbours do not meet beyond it is
-    kept. So a triangle never changes, and the result may have more than `most` sides.
+    until they meet; the side whose removal adds the least area is removed first. A side is kept if its neighbours do
+    not meet beyond it. So a triangle never changes, and the result may have more than `most` sides.
     """
     corners = np.array(corners, float)
     while len(corners) > max(most, 3):
@@ -89,7 +89,8 @@ def _half(points, flat):
 def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], float]:
     """Return (width, height, center, angle) [px, rad] of the box of least area around a convex hull.
 
-    Of several such boxes, the first in the order of the hull's edges is returned. hull (n, 2) [px]: its corners.
+    If several boxes have the least area, the first in the order of the hull's edges is returned. hull (n, 2) [px]:
+    corners of the hull.
     """
     best, found = math.inf, (0.0, 0.0, (0.0, 0.0), 0.0)
     for edge in np.roll(hull, -1, axis=0) - hull:
@@ -116,8 +117,8 @@ CLOSER = 40  # number of times that the step between directions is halved around
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
     """Return (a, b, radius) [px] of a capsule of small area around a convex hull; a equals b for a circle.
 
-    Many directions of the capsule's axis are tried, and the one with the least area is used. The radius is half the
-    hull's width across the axis. hull (n, 2) [px]: its corners.
+    a, b: ends of the capsule's axis. Many directions of the axis are tried, and the one with the least area is used.
+    The radius is half the hull's width across the axis. hull (n, 2) [px]: corners of the hull.
     """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])

@@ -1,10 +1,9 @@
-"""Corners and sides of a tile's convex parts that are not on the outline of the mask, because other parts adjoin them.
+"""Flags for corners and sides of a tile's convex parts that are not on the mask's outline, because other parts adjoin.
 
-Sides shared by two parts are inner: they are not on the outline. If the angles of all parts at a corner sum to half a
-turn or more, the outline has no convex corner there. The corner is then covered. Otherwise the corner belongs to the
-first of these parts that has a side on the outline at the corner, and is covered for the other parts. Parts are ordered
-by tiles, row by row, then in their order within the tile. A corner at which the whole outline turns less than the part
-is marked as blunt.
+A side shared by two parts is inner: it is not on the outline. If the angles of all parts at a corner sum to half a turn
+or more, the outline has no convex corner there, and the corner is covered. Otherwise the corner belongs to one part and
+is covered for the others: the first part that has a side on the outline at this corner. Parts are ordered by tiles, row
+by row, then by their order within the tile. A corner at which the whole outline turns less than the part is blunt.
 """
 
 import math
@@ -24,7 +23,7 @@ NOBODY = np.zeros((0, 5))  # meetings of a tile without parts: no corner on its 
 
 
 class Survey(NamedTuple):
-    """Angles and corners of a tile's parts: everything that can be computed without the neighbouring tiles."""
+    """Angles and corners of a tile's parts: all data that do not depend on the neighbouring tiles."""
 
     angles: np.ndarray  # (n,) float64 [rad] interior angle of each corner
     seams: np.ndarray  # (n,) bool: one side at the corner is inner, the other is a side of the outline
@@ -34,10 +33,10 @@ class Survey(NamedTuple):
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """Return the Survey of a tile's parts.
+    """Return the Survey of the convex parts of a tile.
 
-    parts: TileParts in raster pixels; at: top left corner of the tile in the raster; size [px]: side of the tile;
-    number: the tile's number, counted row by row; origin [px]: origin of body space in the raster.
+    parts: TileParts in raster pixels; at [px]: top left corner of the tile in the raster; size [px]: side of the tile;
+    number: index of the tile, counted row by row; origin [px]: origin of body space in the raster.
     """
     n, (left, top) = len(parts.corners), at
     found = Survey(
@@ -48,11 +47,11 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 
 
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
-    """Return (row, column) of each tile whose corners on the border changed because the parts of one tile changed.
+    """Return (row, column) of each tile with a changed corner on its border, after one tile's parts have changed.
 
-    before, after (m, 5): Survey.meetings of the changed tile before and after. A tile is listed if a corner on its
-    border is in only one of these arrays, even if the tile is outside the mask. row, column: position of the changed
-    tile; size [px]: side of a tile.
+    A corner is changed if it is in only one of the arrays `before` and `after` (m, 5): Survey.meetings of the changed
+    tile before and after. Tiles outside the mask are also returned. row, column: position of the changed tile; size
+    [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -62,8 +61,9 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
     """Return which sides and corners of each part of a tile are not on the outline, as SHAPE.inner flags (k,) int64.
 
-    known: Survey of the parts; around (m, 5): Survey.meetings of the tile, its neighbours and possibly other tiles, in
-    the order of tile numbers; number: the tile's number; columns: number of tiles per row.
+    known: Survey of the parts; around (m, 5): Survey.meetings of the tile, of its neighbours and possibly of more
+    tiles, in the order of tile numbers; number: index of the tile, counted row by row; columns: number of tiles per
+    row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -74,7 +74,8 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 def find_seams(parts, angles_out, seams_out):
     """Write the interior angle [rad] at each corner of a tile's parts, and whether the corner is a seam.
 
-    At a seam exactly one of the two sides is inner. parts: TileParts; angles_out (n,) float64; seams_out (n,) bool.
+    A seam is a corner between an inner side and a side on the outline. parts: TileParts; angles_out (n,) float64;
+    seams_out (n,) bool.
     """
     corners = parts.corners
     inner = parts.inner
@@ -96,10 +97,10 @@ def find_seams(parts, angles_out, seams_out):
 
 @subkernel
 def gather(corners, known, box, number, found_out):
-    """Write the corners of a tile that lie on its border, in the format of Survey.meetings. Return their number.
+    """Write the corners of a tile's parts on the tile's border as rows of Survey.meetings. Return their number.
 
-    corners (n, 2) [px]; known: Survey with angles and seams; box [px]: left, top, right, bottom of the tile; number:
-    the tile's number; found_out (n, 5).
+    corners (n, 2) [px]: corners of the parts; known: Survey with angles and seams; box [px]: left, top, right, bottom
+    of the tile; number: index of the tile; found_out (n, 5): the rows.
     """
     left, top, right, bottom = box
     count = 0
@@ -118,10 +119,10 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag the tiles with a corner that the list `mine` (n, 5) contains, but the list `others` (m, 5) does not.
+    """Flag the tiles with a corner on their border that is a row of `mine` (n, 5), but not of `others` (m, 5).
 
-    mine, others: corners on the border of a tile, see Survey.meetings. place: (left, top, size) [px] of the tile;
-    moved_out (9,) bool: the tile and its neighbours, row by row. O(n m).
+    mine, others: corners on the border of the tile at `place`, in the format of Survey.meetings; place: (left, top,
+    size) [px] of this tile; moved_out (9,) bool: flags of the tile and its 8 neighbours, row by row. O(n m).
     """
     left, top, size = place
     for i in range(len(mine)):
@@ -144,10 +145,10 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag the tiles with a corner that is in only one of two lists of a tile's corners on its border (meetings).
+    """Flag the tiles with a corner on their border that is in only one of the lists `before` (n, 5) and `after` (m, 5).
 
-    before (n, 5), after (m, 5): see Survey.meetings; place: (left, top, size) [px] of the tile; moved_out (9,) bool:
-    the tile and its neighbours, row by row. O(n m).
+    before, after: corners on the border of the tile at `place`, in the format of Survey.meetings; place: (left, top,
+    size) [px] of this tile; moved_out (9,) bool: flags of the tile and its 8 neighbours, row by row. O(n m).
     """
     mark_alone(before, after, place, moved_out)
     mark_alone(after, before, place, moved_out)
@@ -172,13 +173,16 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """Return the bits of SHAPE.inner that store the largest turn [rad] of the outline at a part's blunt corners."""
+    """Return the bits of SHAPE.inner that store `turn`: the outline's largest turn [rad] at a part's blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """Return the index of the first row of `around` (m, 5) whose tile number is `number` or higher. O(log m)."""
+    """Return the index of the first row of `around` (m, 5) with a tile number (column 4) of `number` or higher.
+
+    The rows are sorted by tile number. O(log m).
+    """
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -193,10 +197,10 @@ def first_of(around, number):
 def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
-    Only the turns at seams (known.seams) are computed; at all other corners the turn is pi. At a seam, the interior
-    angles of all parts with this corner are summed. The turn is pi minus the sum. It is COVERED if the sum is HALF_TURN
-    or more, or if an earlier part has a seam at the corner. corners (n, 2) [px]; known, around: see inner_bits; place:
-    (number of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
+    Only the turns at seams (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus
+    the sum of the interior angles of all parts with this corner. It is COVERED if the sum is HALF_TURN or more, or if
+    an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see inner_bits;
+    place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -226,7 +230,10 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """Return the index of the first corner, from `first` on, that is not collinear (its angle is below HALF_TURN)."""
+    """Return the index of the first corner, from `first` on, that is not collinear (its angle is below HALF_TURN).
+
+    angles (n,) [rad]: interior angles.
+    """
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -234,7 +241,7 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners of a tile's parts in body space, without collinear ones. Return their total number.
+    """Write the corners of a tile's parts, except collinear ones, in body space. Return the number of corners written.
 
     parts: TileParts; angles (n,) [rad]: interior angles; origin [px]: origin of body space in the raster; corners_out
     (n, 2) [px]; counts_out (parts,): number of corners of each part.
@@ -261,9 +268,9 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
 
 @kernel
 def survey_tile(parts, box, number, origin, survey_out):
-    """Write the Survey of a tile's parts. Return (number of meetings, number of corners).
+    """Write the Survey of a tile's parts to survey_out. Return (number of rows of meetings, number of rows of corners).
 
-    parts: TileParts; box [px]: left, top, right, bottom of the tile; number: the tile's number; origin [px]: origin of
+    parts: TileParts; box [px]: left, top, right, bottom of the tile; number: index of the tile; origin [px]: origin of
     body space in the raster.
     """
     find_seams(parts, survey_out.angles, survey_out.seams)
@@ -275,9 +282,9 @@ def survey_tile(parts, box, number, origin, survey_out):
 def tell_inner(parts, known, around, place, turns_out, inner_out):
     """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
-    Edges are counted without collinear corners. An edge is inner if all collinear sides that it consists of are inner.
-    A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part. parts:
-    TileParts; known, around: see inner_bits; place: (number of the tile, tiles per row); turns_out (n,): see
+    Collinear corners are not counted: adjacent collinear sides form one edge, which is inner if all these sides are
+    inner. A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part.
+    parts: TileParts; known, around: see inner_bits; place: (index of the tile, tiles per row); turns_out (n,): see
     cover_corners; inner_out (parts,) int64: the flags.
     """
     cover_corners(parts.corners, known, around, place, turns_out)

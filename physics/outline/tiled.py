@@ -1,4 +1,4 @@
-"""The outline of a large raster, tile by tile: its points on tile borders, the lines between them, and convex parts."""
+"""Outline of a large raster, computed tile by tile: points on tile borders, lines between them, and convex parts."""
 
 import math
 from functools import cache
@@ -51,15 +51,16 @@ BESIDE = 0.25  # [px] least distance of a crossing from a run's ends
 
 @subkernel
 def whole_grains(length):
-    """Return a length [px] rounded down to a multiple of GRAIN, the grid of outline points."""
+    """Return a length [px] rounded down to a multiple of GRAIN, the spacing of the grid of outline points."""
     return math.floor(length * GRAINS) * GRAIN
 
 
 @subkernel
 def to_border(window, x, y, direction):
-    """Return the distance [px] from a corner on the tile's border to the next border line in a direction.
+    """Return the distance [px] from a corner (x, y) on the tile's border to the next border line in a direction.
 
-    The result is KNOWN + 1 if no border line is ahead. window: see paths.Window.
+    direction: 0 right, 1 down, 2 left, 3 up. The result is KNOWN + 1 if there is no border line in this direction.
+    window: see paths.Window.
     """
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
@@ -71,9 +72,9 @@ def stretch(runs, count, at, seen, x, y):
     """Fit a line (least squares) to the middles of a path's pixel edges near a corner (x, y).
 
     Return (x, y, slope, steep, straight). x, y [px]: a point on the line, relative to the corner; steep: whether the
-    slope is dx / dy instead of dy / dx; straight: whether all middles are near the line. Edges within `seen` edges of
-    the corner are used. runs: RUN rows, of which the first `count` are the path; at: number of edges of the path before
-    the corner.
+    slope is dx / dy instead of dy / dx; straight: whether all middles are near the line. Only the `seen` edges before
+    and the `seen` edges after the corner are used. runs: RUN rows, of which the first `count` are the path; at: number
+    of edges of the path before the corner.
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -122,8 +123,8 @@ def is_straight(runs, count, at):
     """Return whether a straight line separates the solid from the clear pixels along a path near a corner.
 
     Such a line exists if the directions from centres of solid pixels to centres of clear pixels span less than half a
-    turn; only ends of runs need to be tested. Edges within SEEN of the corner are used. runs: RUN rows, of which the
-    first `count` are the path; at: number of pixel edges of the path before the corner.
+    turn. Only pixels at the ends of runs are tested, which is sufficient. Edges within SEEN of the corner are used.
+    runs: RUN rows, of which the first `count` are the path; at: number of pixel edges of the path before the corner.
     """
     first_x = first_y = last_x = last_y = 0.0
     for k in range(count):
@@ -160,9 +161,9 @@ def is_straight(runs, count, at):
 def bend(runs, count, at, x, y):
     """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    Return its tangent at the corner, in the format of `stretch`; the last value is whether all middles are near the
-    parabola. runs: RUN rows, of which the first `count` are the path; at: number of edges of the path before the
-    corner.
+    Return the parabola's tangent at the corner as (x, y, slope, steep, near), see `stretch`; near: whether all middles
+    are near the parabola. runs: RUN rows, of which the first `count` are the path; at: number of edges of the path
+    before the corner.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -198,10 +199,10 @@ def bend(runs, count, at, x, y):
 
 @subkernel
 def line_at(runs, count, at, x, y):
-    """Return the line (x, y, slope, steep) that a path follows at a corner, in the format of `stretch`.
+    """Return the line (x, y, slope, steep) that approximates a path at a corner (x, y), in the format of `stretch`.
 
-    The line is fitted to the longest straight part of the path around the corner, or is the tangent of a curve.
-    Arguments: see stretch.
+    The line is fitted to the longest straight part of the path around the corner, or is the tangent of a parabola.
+    runs, count, at: see stretch.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -219,8 +220,8 @@ def line_at(runs, count, at, x, y):
 def meets(runs, count, at, x, y, level):
     """Return the signed distance [px] from a corner to the point where the path meets the corner's row or column.
 
-    The path is replaced by the line of line_at. runs, count, at: see stretch; x, y: the corner; level: True for the
-    row, False for the column.
+    The path is approximated by the line that line_at returns. runs, count, at: see stretch; x, y: the corner; level:
+    True for the row, False for the column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -232,7 +233,7 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return how far [px] a border crossing is moved from corner (x, y) along run k of a path.
+    """Return the distance [px] by which a border crossing is moved from corner (x, y) along run k of a path.
 
     runs: RUN rows, of which the first `count` are the path; after: True if run k starts at the corner, False if it ends
     there; window: see paths.Window.
@@ -260,10 +261,10 @@ def room_in(window, runs, count, k, x, y, after):
 
 @subkernel
 def aside(window, runs, count, k, distance):
-    """Return the distance [px] from a point of run k to the line that the path follows, perpendicular to the run.
+    """Return the distance [px] from a point of run k to the line that approximates the path, perpendicular to the run.
 
-    It is positive in the direction of run k - 1, and at most window.reach. runs: RUN rows, of which the first `count`
-    are the path; distance: position of the point from the start of the run, in pixel edges.
+    It is positive in the direction of run k - 1; its absolute value is at most window.reach. runs: RUN rows, of which
+    the first `count` are the path; distance: position of the point from the start of the run, in pixel edges.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -283,10 +284,10 @@ def aside(window, runs, count, k, distance):
 def crossing(window, runs, count, at, after):
     """Return the point where the outline crosses the tile's border near a corner of a path.
 
-    The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN rows, of which the first
+    The result is (position along the path, x offset, y offset from the path) [px]. runs: RUN rows, of which the first
     `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
-    after: used only at a corner of the tile: True to move the crossing along the run after the path's corner, False
-    along the run before it; window: see paths.Window.
+    after: used only if the corner is also a corner of the tile: True to move the crossing along the run that starts at
+    the corner, False along the run that ends there; window: see paths.Window.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -336,7 +337,7 @@ PIECE = np.dtype(
 
 
 class Paths(NamedTuple):
-    """The pieces of the outline in one tile and their points, as find_paths returns them, with scratch arrays."""
+    """Pieces of the outline in one tile and their points, written by find_paths, with scratch arrays."""
 
     marks: np.ndarray  # [row, col] uint8 of the window; not 0: the crack above this pixel is already in a path
     lines: Lines
@@ -360,7 +361,10 @@ def room_for_paths(size: int, halo: int) -> Paths:
 
 @subkernel
 def along_border(window, x, y):
-    """Return the position [px] of border point (x, y) along the tile's border, clockwise from its top left corner."""
+    """Return the position [px] of border point (x, y) along the tile's border, clockwise from its top left corner.
+
+    window: see paths.Window.
+    """
     size = float(window.high - window.low)
     if y == window.low:
         return x - window.low
@@ -373,10 +377,10 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Write row n of places: a border crossing, at a position along a path and an offset [px] from it.
+    """Write row n of places_inout (PLACE rows): a border crossing, given by its position along a path and offset.
 
     runs: RUN rows, of which the first `count` are the path; at: position along the path, in pixel edges; off_x, off_y
-    [px]: the offset. places_inout: PLACE rows.
+    [px]: the offset.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -391,8 +395,8 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
 def put_points(window, found, path, workspace):
     """Append the lines found along a path as a piece of the outline (PIECE row) with its points (POINT rows).
 
-    Return whether a piece was appended: False if found is 0. found: number of places in the chain of workspace.lines,
-    see paths.cheapest; path: Path; workspace: Paths; window: see paths.Window.
+    Return whether a piece was appended: False if `found` is 0. found: number of line ends in workspace.lines.chain, see
+    paths.cheapest; path: Path; workspace: Paths; window: see paths.Window.
     """
     if found == 0:
         return False
@@ -412,7 +416,7 @@ def put_points(window, found, path, workspace):
 
 @subkernel
 def path_within(window, count, cracks, begin, end):
-    """Return the Path of a path in the tile. count: number of runs; cracks: number of pixel edges.
+    """Return the Path of `count` runs and `cracks` pixel edges in the tile.
 
     begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop; window: see
     paths.Window.
@@ -423,11 +427,11 @@ def path_within(window, count, cracks, begin, end):
 
 @subkernel
 def add_open(window, x, y, direction, cracks, workspace):
-    """Append the outline along a path from border to border of the tile. Return whether lines were found.
+    """Append the outline along a path from border to border of the tile. Return whether the lines along it were found.
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
-    pixel edges inside the tile, 0 if the path only passes the tile's corner, from one border to another; window: see
-    paths.Window. workspace: see Paths.
+    pixel edges inside the tile. It is 0 if the path only passes the tile's corner, from one border to another. window:
+    see paths.Window; workspace: see Paths.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -456,7 +460,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
     """Append the outline along a loop of `cracks` pixel edges in the tile. Return whether lines were found.
 
     x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner; window: see
-    paths.Window. workspace: see Paths.
+    paths.Window; workspace: see Paths.
     """
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
@@ -470,7 +474,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 def add_at_corner(window, x, y, workspace):
     """Append all pieces of the outline that enter the tile at border point (x, y).
 
-    Return whether lines were found for each. window: see paths.Window. workspace: see Paths.
+    Return whether the lines of each piece were found. window: see paths.Window; workspace: see Paths.
     """
     pixels = window.pixels
     done = True
@@ -495,9 +499,9 @@ def add_at_corner(window, x, y, workspace):
 
 @subkernel
 def find_paths(window, workspace):
-    """Find all pieces of the outline in a tile. Return whether lines were found for each.
+    """Find all pieces of the outline in a tile. Return whether the lines of each piece were found.
 
-    window: Window; workspace: Paths, which receives the result. The time is linear in pixels and corners, except for
+    window: Window; workspace: Paths, which receives the pieces. The time is linear in pixels and corners, except for
     the line search.
     """
     low, high = window.low, window.high
@@ -529,7 +533,7 @@ def find_paths(window, workspace):
 
 @subkernel
 def tile_corner(window, number):
-    """Return (x, y) [px] of a corner of the tile. number: 0 is the top left one, then clockwise on the screen."""
+    """Return (x, y) [px] of a corner of the tile. number: clockwise on the screen from 0, top left; modulo 4."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -539,10 +543,10 @@ def tile_corner(window, number):
 
 @subkernel
 def put_piece(n, first, piece, points, sides_inout):
-    """Append the sides of a piece (PIECE row) to a ring. Return the number of sides.
+    """Append the sides of a piece (PIECE row) to a ring. Return the new number of SIDE rows.
 
-    In an open piece the side that starts at its last point is inner, because it follows the tile's border. n: number of
-    sides before; first: row of the ring's first side; points: POINT rows. sides_inout: SIDE rows.
+    In an open piece the side that starts at the last point is inner, because it follows the tile's border. n: number of
+    rows before; first: row of the ring's first side; points: POINT rows. sides_inout: SIDE rows.
     """
     for k in range(piece.count):
         point = points[piece.first + k]
@@ -552,10 +556,10 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """Return (index, distance [px]) of the open piece that starts next along the border, clockwise.
+    """Return (index, distance [px]) of the open piece that starts next along the tile's border, clockwise.
 
-    pieces: PIECE rows, `count` in use; at [px]: position along the border from which the distance is measured; around
-    [px]: length of the border.
+    pieces: PIECE rows, of which the first `count` are in use; at [px]: position along the border from which the
+    distance is measured; around [px]: length of the border.
     """
     best = -1
     nearest = math.inf
@@ -573,10 +577,10 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the tile's corners on a section of its border to a ring. Return the number of sides.
+    """Append the tile's corners on a section of the tile's border to a ring. Return the new number of SIDE rows.
 
-    n: number of sides before; first: row of the ring's first side; start [px]: start of the section along the border;
-    length [px]: its length. Corners of the tile at the ends of the section are not added. sides_inout: SIDE rows;
+    n: number of rows before; first: row of the ring's first side; start [px]: start of the section along the border;
+    length [px]: length of the section. Corners at the ends of the section are not added. sides_inout: SIDE rows;
     window: see paths.Window.
     """
     size = float(window.high - window.low)
@@ -590,9 +594,9 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring that contains open piece `number`: pieces of the outline and the tile's border between them.
+    """Append the ring that contains open piece `number`: pieces of the outline, joined along the tile's border.
 
-    Return the number of sides. n: number of sides before; workspace: Paths. sides_inout: SIDE rows; window: see
+    Return the new number of SIDE rows. n: number of rows before; workspace: Paths; sides_inout: SIDE rows; window: see
     paths.Window.
     """
     around = 4.0 * (window.high - window.low)
@@ -609,7 +613,7 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen.
+    """Return whether a closed piece of the outline bounds a hole, which means it is counter-clockwise on the screen.
 
     piece: PIECE row; points: POINT rows.
     """
@@ -624,9 +628,9 @@ def is_hole(piece, points):
 
 @subkernel
 def put_regions(window, workspace, sides_out):
-    """Write the rings around the solid part of a tile as SIDE rows. Return their number. Holes are separate rings.
+    """Write the rings around the solid part of a tile as SIDE rows. Return the number of rows.
 
-    workspace: Paths, filled by find_paths; window: see paths.Window.
+    Holes are separate rings. workspace: Paths, filled by find_paths; window: see paths.Window.
     """
     n = 0
     holes = 0
@@ -665,7 +669,7 @@ HALO = SEEN + SHARP + 1  # [px] width of the margin in neighbouring tiles on whi
 
 
 class TileParts(NamedTuple):
-    """The convex parts of one tile: polygons whose corners are listed part after part."""
+    """Convex parts of one tile: polygons whose corners are listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; topmost, then leftmost corner first
     inner: np.ndarray  # (n,) bool: the side after the corner is shared with a part of this or a neighbouring tile
@@ -719,7 +723,7 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline cuts off a corner of a clear tile: the other three pixels at this corner are solid.
+    """Return whether the outline cuts off a corner of a clear tile, because the other three pixels at it are solid.
 
     near: the tile's pixels with a margin of 1 px.
     """
@@ -733,7 +737,7 @@ def _is_cornered(near):
 
 @cache
 def _room(size):
-    """Return scratch arrays of convex_tile for tiles of `size` px: 12 MB for 64 px. All calls share them."""
+    """Return the scratch arrays of convex_tile for tiles of `size` px: 12 MB for 64 px. All calls share the arrays."""
     paths = room_for_paths(size, HALO)
     most = 3 * len(paths.points)
     return (paths, np.zeros(most, SIDE), np.zeros((most, 2)), np.zeros(most, bool), np.zeros(most, np.int64))
@@ -744,7 +748,7 @@ def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, co
     """Write the convex parts of a tile's outline. Return their number, or -1 if the outline is not a polygon.
 
     window: Window; most: largest number of corners of a part; workspace: Paths, scratch; sides_inout: SIDE rows,
-    scratch; corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): the result, in the format of TileParts.
+    scratch; corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): the parts, in the format of TileParts.
     """
     if not find_paths(window, workspace):
         return -1
