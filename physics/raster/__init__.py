@@ -1,1 +1,1 @@
-"""Pixels of masks as bits of 64-bit words: rotation, overlap, connected pieces, carving."""
+"""Pixels of masks as bits of 64-bit words: rotation, overlap, connected pieces, carving (removal of pixels)."""

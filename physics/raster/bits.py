@@ -1,6 +1,6 @@
 """Pixels as bits of 64-bit words: bit operations, overlap of two masks, and rotation of a mask to one of 128 angles.
 
-Bit b of word k in a row is the pixel in column 64k + b. Words are uint64; shift counts are kept in 0..63.
+Bit b of word k in a row is the pixel in column 64k + b. Words are uint64. Shift counts are always in 0..63.
 """
 
 import math
@@ -16,7 +16,7 @@ from physics.jit.plain import popcount, word
 
 @subkernel
 def bits_from(words, row, stride, start):
-    """Return the 64 pixels of a row from column `start` on as a word. Pixels beyond the row are clear.
+    """Return the 64 pixels of a row in columns `start` to start + 63 as a word. Pixels outside the row are clear.
 
     words (n,) uint64: pixels; row: index of the row's first word; stride: number of words per row. O(1).
     """
@@ -51,7 +51,7 @@ def lowest_bit(value):
 def sum_of_places(value):
     """Return the sum of the indices of all set bits of a word (Knuth 4A, 7.1.3).
 
-    For each binary digit of an index, the set bits whose index has this digit are counted.
+    For each binary digit of an index, the set bits whose index contains this digit are counted.
     """
     return (
         popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
@@ -105,14 +105,14 @@ def minus(a, b):
 def touch(a, b):
     """Return whether a pixel of word a touches a pixel of word b, also diagonally.
 
-    a, b: words of the same 64 columns in adjacent rows, or of the same 64 rows in adjacent columns.
+    a, b: pixels in the same 64 columns of adjacent rows, or in the same 64 rows of adjacent columns.
     """
     return word(word(a | word(a << word(1)) | word(a >> word(1))) & b) != word(0)
 
 
 @subkernel
 def has_bit(value, place):
-    """Return whether the bit of index `place` is set in a word."""
+    """Return whether the bit with index `place` is set in a word."""
     return word(word(value >> word(place)) & word(1)) != word(0)
 
 
@@ -120,31 +120,31 @@ def has_bit(value, place):
 def is_set(words, row, x):
     """Return whether the pixel in column x of a row is set.
 
-    row: index in `words` of the row's first word; x must be inside the row.
+    words (n,) uint64: pixels; row: index in `words` of the row's first word; x must be inside the row.
     """
     return (word(words[row + (x >> 6)] >> word(x & 63)) & word(1)) != word(0)
 
 
 @subkernel
 def shared_word(words, word_a, shift_a, word_b, shift_b):
-    """Return the pixels that two words share after each is shifted to lower columns.
+    """Return the pixels set in both of two words after shifting each of them to lower columns.
 
-    words (n,) uint64; word_a, word_b: index of each word; shift_a, shift_b: by how many columns each is shifted, 0..63.
-    The indices are converted to unsigned, which saves the check for negative ones.
+    words (n,) uint64; word_a, word_b: indices of the two words; shift_a, shift_b: number of columns by which each is
+    shifted, 0..63. The indices are converted to unsigned, which saves the check for negative values.
     """
     return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
 
 
 @subkernel
 def shifts_to(columns):
-    """Return the arguments (up, down, kept) with which `moved` shifts a word to the right by -64 to 64 columns."""
+    """Return the arguments (up, down, kept) with which `moved` shifts a word by -64 to 64 columns to the right."""
     kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
     return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
 
 
 @subkernel
 def moved(value, up, down, kept):
-    """Return a word shifted up by `up` bits, then down by `down` bits, and masked with `kept`.
+    """Return a word after a shift up by `up` bits, a shift down by `down` bits, and an AND with `kept`.
 
     up, down, kept: result of shifts_to.
     """
@@ -155,9 +155,10 @@ def moved(value, up, down, kept):
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
     """Return (row, shared pixels) of the first row in which two rasters overlap; (rows, 0) if there is none.
 
-    Both rasters are one word wide. rows: number of compared rows; word_a, word_b: index of each raster's word in the
-    first compared row; shift_a, shift_b: number of columns to skip on the left of each raster. The right end needs no
-    mask, because words are clear beyond their solid bounds. O(rows).
+    Both rasters are one word wide. `row` is counted from the first compared row; the pixels are a word. word_a, word_b:
+    index in `words` of each raster's word in the first compared row; shift_a, shift_b: number of columns to skip on the
+    left of each raster; rows: number of compared rows. O(rows). The right end needs no mask, because words are clear
+    beyond their solid bounds.
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -169,7 +170,7 @@ def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
 def packed(solid: np.ndarray) -> np.ndarray:
     """Return the pixels solid[row, col] as packed words, (rows, ceil(columns/64)) uint64.
 
-    The lowest bit comes first.
+    The lowest bit of a word is the leftmost pixel.
     """
     height, width = solid.shape
     padded = np.zeros((height, -(-width // 64) * 64), bool)
@@ -178,7 +179,7 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """Return, as packed words, the pixels that are solid or have a solid pixel among their 8 neighbours.
+    """Return the pixels that are solid or have a solid pixel among their 8 neighbours, as packed words.
 
     The raster of the result is larger than solid[row, col] by one pixel on each side.
     """
@@ -199,9 +200,9 @@ def halo(solid: np.ndarray) -> np.ndarray:
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """Return the intersection (left, top, right, bottom) of the solid bounds of two rasters, in pixels of the first.
+    """Return the intersection (left, top, right, bottom) of the solid bounds of rasters a and b, in pixels of a.
 
-    a, b: RASTER rows; dx, dy [px]: top left corner of b in a.
+    a, b: RASTER rows; dx, dy [px]: position of b's top left corner in a.
     """
     return (
         max(a.set_left, b.set_left + dx),
@@ -213,10 +214,10 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (found, x, y) of the first pixel, row by row, that masks A and B share. x, y: its column and row in A.
+    """Return (found, x, y) of the first pixel, row by row, that is solid in both masks A and B.
 
-    rasters: RASTER rows; words: uint64; mask_a, mask_b: RASTER row numbers; dx, dy [px]: top left corner of B in A.
-    O(words) at worst.
+    x, y: column and row of the pixel in A. rasters: RASTER rows; words: uint64; mask_a, mask_b: RASTER row numbers; dx,
+    dy [px]: position of B's top left corner in A. O(words) at worst.
     """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -243,9 +244,9 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
     """Return a row of raster A that contains a pixel shared with raster B, or -1 if they share none.
 
-    Both rasters are one word wide. row_a, row_b: index of the first word of each raster; box_a, box_b: solid bounds
-    (left, top, right, bottom) of each raster; dx, dy [px]: top left corner of B in A; guess: row of A that is tested
-    first. O(1) if the guess is right, else O(rows).
+    Both rasters are one word wide. row_a, row_b: index in `words` of the first word of each raster; box_a, box_b: solid
+    bounds (left, top, right, bottom) of each raster; dx, dy [px]: position of B's top left corner in A; guess: row of A
+    that is tested first. O(1) if this row contains a shared pixel, else O(rows).
     """
     left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
@@ -266,8 +267,9 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, each one word wide.
 
-    x, y: column and row in A. difference [px2]: the area shared with B moved one pixel to the left, minus that with B
-    moved one pixel to the right. The solid bounds of A and B must overlap. Arguments: see line_shared. O(rows).
+    area: number of shared pixels; x, y: column and row in A; difference [px2]: the area shared with B moved one pixel
+    to the left, minus that with B moved one pixel to the right. The solid bounds of A and B must overlap. Arguments as
+    in line_shared. O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
@@ -290,7 +292,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
-    """Return the number of pixels that masks A and B share. Arguments: see first_pixel. O(words)."""
+    """Return the number of pixels that are solid in both masks A and B. Arguments as in first_pixel. O(words)."""
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
@@ -316,9 +318,9 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (area, sum of x, sum of y) over the pixels that masks A and B share. x, y: column and row in A.
+    """Return (area, sum of x, sum of y) over the pixels that are solid in both masks A and B.
 
-    Arguments: see first_pixel. O(words).
+    area: number of these pixels; x, y: column and row in A. Arguments as in first_pixel. O(words).
     """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -360,9 +362,9 @@ BAND = 1 << 14  # pixels rotated per pass: temporary arrays stay in the cache an
 
 @dataclass(frozen=True)
 class Turned:
-    """A mask rotated to one angle, as PixelMask.turned returns it.
+    """A mask rotated to one angle, returned by PixelMask.turned.
 
-    solid: its pixels, bool [row, col].
+    solid: pixels of the rotated mask, bool [row, col].
     origin: origin of body space (x, y) [px], from the top left corner of `solid`.
     source_x, source_y: column and row of each pixel's source in the unrotated mask, int16 [row, col]; -1 where clear.
     """
@@ -374,12 +376,12 @@ class Turned:
 
 
 def bucket_of(angle: float, buckets: int) -> int:
-    """Return the number of the angle bucket nearest to `angle` [rad]. A full turn has `buckets` equal buckets."""
+    """Return the index of the angle bucket nearest to `angle` [rad]. A full turn has `buckets` equal buckets."""
     return int(math.floor(angle * buckets / math.tau + 0.5)) % buckets
 
 
 def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: int) -> Turned:
-    """Return the mask solid[row, col], rotated about its origin [px] by bucket/buckets of a full turn.
+    """Return the mask solid[row, col] after a rotation about its origin [px] by bucket/buckets of a full turn.
 
     The rotation is clockwise on the screen.
     """
@@ -430,11 +432,12 @@ def _any_turn(solid, origin, angle):
 
 
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
-    """Sample a mask at the pixels of its rotated raster. Return arrays (solid, samples, source), one entry for each.
+    """Sample a mask at the pixels of its rotated raster. Return (solid, samples, source), arrays over these pixels.
 
-    solid: whether the pixel's centre is solid; samples: how many of its samples are solid; source: flat index of the
-    source pixel under its first solid sample, -1 for none. padded: source pixels with a clear border; mixed: result of
-    _mixed; base_x, base_y [px]: first corner of each rotated pixel in the padded source.
+    solid: whether the source is solid at the pixel's centre; samples: number of the pixel's sample points at which the
+    source is solid; source: flat index of the source pixel under the first solid sample, -1 for none. padded: source
+    pixels with a clear border; mixed: result of _mixed; base_x, base_y [px]: first corner of each rotated pixel in
+    `padded`.
     """
     rows, columns = padded.shape
 
@@ -471,11 +474,11 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """Return the solid pixels of a rotated mask, [row, col] bool, `wanted` in number if possible.
+    """Return the solid pixels of a rotated mask, [row, col] bool. Their number is `wanted` if possible.
 
-    At first these are the pixels whose centres are solid (`centered`). If they are too few, the most covered other
+    At first these are the pixels `centered`, whose centres are solid. If they are too few, the most covered other
     pixels are added. If they are too many, the least covered pixels are removed, except pixels whose removal would
-    disconnect others. coverage: number of solid samples of each pixel.
+    disconnect other pixels. coverage [row, col]: number of solid samples of each pixel.
     """
     kept = centered.copy()
     missing = wanted - int(kept.sum())
@@ -502,7 +505,10 @@ def _in_order(some, key):
 
 
 def _is_simple(around):
-    """Return whether the middle of 3 x 3 pixels is a simple point: without it, its solid neighbours stay connected."""
+    """Return whether clearing the middle of 3 x 3 pixels leaves its solid neighbours connected (simple point).
+
+    around (3, 3) bool: the pixels. An isolated middle, and one with four solid side neighbours, is not simple.
+    """
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
         return False  # isolated, or interior

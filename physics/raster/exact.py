@@ -39,7 +39,7 @@ ROUNDED = 2.0**-50  # rounding error of coordinates, as a fraction of the masks'
 
 
 class SquaresPair(NamedTuple):
-    """Two masks as unions of pixel squares. A is the frame of reference, B is rotated and moved in A's raster."""
+    """Two masks A and B as unions of pixel squares. A is the frame of reference; B has a pose in A's raster."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
@@ -59,10 +59,10 @@ def slack_of(a, b):
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the centre distance [px] along an axis at which two unit squares just touch.
+    """Return the distance [px] of the centres of two unit squares along an axis at which they just touch.
 
-    The axes are those of both squares. The squares share area if their centres are nearer than this on all axes.
-    cosine, sine: of the angle between the squares.
+    The axes are those of both squares. The squares share area if their centres are nearer than this along every axis.
+    cosine, sine: cosine and sine of the angle between the squares.
     """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
@@ -71,8 +71,8 @@ def reach_of(cosine, sine):
 def do_squares_meet(dx, dy, cosine, sine, near):
     """Return whether two unit squares share area (separating axis test).
 
-    dx, dy [px]: centre of the second square relative to the first; cosine, sine: of the angle between the squares; near
-    [px]: result of reach_of, minus the rounding error.
+    dx, dy [px]: centre of the second square relative to the first; cosine, sine: cosine and sine of the angle between
+    the squares; near [px]: result of reach_of, minus the rounding error.
     """
     return (
         abs(dx) < near
@@ -84,10 +84,10 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """Return how far [px] a unit square must move along the unit vector (nx, ny) to no longer overlap another.
+    """Return the distance [px] that a unit square must move along the unit vector (nx, ny) to leave another one.
 
-    dx, dy [px]: centre of the moving square relative to the other square; cosine, sine: of the moving square's angle;
-    reach [px]: result of reach_of.
+    dx, dy [px]: centre of the moving square relative to the other square; cosine, sine: cosine and sine of the moving
+    square's angle; reach [px]: result of reach_of.
     """
     least = math.inf
     for axis in range(4):
@@ -106,8 +106,9 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 def box_in_raster(a, b, u, v, cosine, sine, margin):
     """Return the box (left, top, right, bottom) of B's pixels that may overlap the solid bounds of mask A.
 
-    a, b: RASTER rows; u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle in A's raster;
-    margin [px]: by which the bounds are enlarged. Right and bottom are exclusive.
+    The box is in B's raster; right and bottom are exclusive. a, b: RASTER rows; u, v [px]: top left corner of B's
+    raster in A's raster; cosine, sine: cosine and sine of B's angle in A's raster; margin [px]: enlargement of A's
+    bounds.
     """
     half_x, half_y = 0.5 * (a.set_right - a.set_left) + margin, 0.5 * (a.set_bottom - a.set_top) + margin
     dx, dy = a.set_left - margin + half_x - u, a.set_top - margin + half_y - v
@@ -126,7 +127,7 @@ def box_in_raster(a, b, u, v, cosine, sine, margin):
 def clip_run(low, high, start, step, least, most):
     """Return the part (low, high) of the interval low <= t <= high in which least <= start + step * t <= most.
 
-    If the part is empty, the returned low is greater than high.
+    If this part is empty, the returned low is greater than the returned high.
     """
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
@@ -140,7 +141,7 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
     """Return (first, last + 1) of the columns in a row of mask B whose pixel centres are in the solid bounds of A.
 
     a: RASTER row of A; left, right: range of tested columns, right exclusive; x, y [px]: centre of the pixel in column
-    0, in A's raster; cosine, sine: direction of the row; margin [px]: by which the bounds are enlarged.
+    0, in A's raster; cosine, sine: direction of the row in A's raster; margin [px]: enlargement of A's bounds.
     """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
@@ -152,8 +153,8 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
 def square_under(words, a, x, y, cosine, sine, near):
     """Return (found, column, row) of the first pixel of mask A that overlaps a rotated pixel square of mask B. O(1).
 
-    words: pixels of all rasters; a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: of
-    the square's angle; near [px]: see do_squares_meet.
+    words: pixels of all rasters; a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine:
+    cosine and sine of the square's angle; near [px]: see do_squares_meet.
     """
     column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
@@ -170,8 +171,8 @@ def square_under(words, a, x, y, cosine, sine, near):
 def first_upright(pair, u, v):
     """Return the result of first_squares for two masks at equal angles, by AND of whole words. O(words).
 
-    A pixel of one mask overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested. pair,
-    u, v: see first_squares.
+    A pixel of one mask overlaps up to four pixels of the other mask, so up to four offsets in whole pixels are tested.
+    pair, u, v: see first_squares.
     """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column, row = math.floor(u + slack), math.floor(v + slack)
@@ -185,11 +186,11 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v, start_row):
-    """Return (found, column in A, row in A, column in B, row in B) of the first overlapping pixels of masks A and B.
+    """Find the first pixels of masks A and B that overlap. Return (found, column and row in A, column and row in B).
 
-    The search ends at the first overlap. pair: SquaresPair; u, v [px]: top left corner of B's raster in A's raster,
-    which replaces pair.u, pair.v; start_row: row of B with which the search begins; the rows above it come last.
-    O(pixels of B within A's bounds) at worst.
+    The result has five numbers. The search ends at the first overlap. pair: SquaresPair; u, v [px]: top left corner of
+    B's raster in A's raster, used instead of pair.u, pair.v; start_row: row of B at which the search starts; the rows
+    above it are searched last. O(pixels of B within A's bounds) at worst.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -220,10 +221,10 @@ def first_squares(pair, u, v, start_row):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return how far [px] mask B must move along (nx, ny) to end its overlap with mask A.
+    """Return the distance [px] that mask B must move along the unit vector (nx, ny) to end its overlap with mask A.
 
-    A result above `most` [px] means that no move up to `most` is enough. pair: SquaresPair; nx, ny: unit vector in A's
-    raster. Two squares overlap on one interval of the move. Each overlapping pair that is found advances the move to
+    A result above `most` [px] means that no move up to `most` is enough. pair: SquaresPair; nx, ny: in A's raster. A
+    pair of squares overlaps during one interval of the move. Each overlapping pair that is found advances the move to
     the end of its interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
@@ -254,10 +255,11 @@ def squares_way_out(pair, nx, ny, most):
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return the contribution of a line to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of a line to the area and moments of the part of a region inside a box.
 
-    The line from p to q [px] is a part of the region's outline; the box is 0..width x 0..height. The sides of the box
-    cut the line into up to three pieces. Along each piece, x clamped to the box is a linear function.
+    The result is (area [px2], moment of x, moment of y [px3]). The line from p to q [px] is a part of the region's
+    outline; the box is 0..width x 0..height. The sides of the box cut the line into up to three pieces. Along each
+    piece, x clamped to the box is a linear function.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -291,7 +293,7 @@ def line_share(px, py, qx, qy, width, height):
 
 @subkernel
 def arc_primitives(x, y, radius, angle):
-    """Return the integrals of x dy, x²/2 dy and x y dy along a circle, from angle 0 to `angle` [rad].
+    """Return the integrals (x dy, x²/2 dy, x y dy) along a circle, from angle 0 to `angle` [rad].
 
     x, y, radius [px]: centre and radius of the circle.
     """
@@ -309,10 +311,10 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle [rad] after `after` at which a circle crosses the line through a side of a box.
+    """Return the first angle [rad] after `after` at which a circle crosses the infinite line through a side of a box.
 
-    The result is `until` if there is no crossing before it. x, y, radius [px]: centre and radius of the circle; the box
-    is 0..width x 0..height.
+    The result is `until` if there is no crossing before `until`. x, y, radius [px]: centre and radius of the circle;
+    the box is 0..width x 0..height.
     """
     best = until
     for side in range(4):
@@ -332,10 +334,11 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the contribution of an arc to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of an arc to the area and moments of the part of a region inside a box.
 
-    The arc is a part of the region's outline. x, y, radius [px]: its centre and radius; start, end [rad]: its angles,
-    start < end. The box is 0..width x 0..height.
+    The result is (area [px2], moment of x, moment of y [px3]). The arc is a part of the region's outline. x, y, radius
+    [px]: centre and radius of the arc; start, end [rad]: angles of its ends, start < end. The box is 0..width x
+    0..height.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -372,9 +375,10 @@ def arc_share(x, y, radius, start, end, width, height):
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
-    """Return (area, moment of x, moment of y) of the part of a rotated unit square in the box 0..width x 0..height.
+    """Return the area and moments of the part of a rotated unit square inside the box 0..width x 0..height.
 
-    x, y [px]: centre of the square; cosine, sine: of the square's angle.
+    The result is (area [px2], moment of x, moment of y [px3]). x, y [px]: centre of the square; cosine, sine: cosine
+    and sine of the square's angle.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -391,10 +395,10 @@ def square_share(x, y, cosine, sine, width, height):
 
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
-    """Return (area, moment of x, moment of y) of the area that mask A shares with a rotated pixel square of mask B.
+    """Return the area and moments of the overlap of mask A and a rotated pixel square of mask B.
 
-    words: pixels of all rasters; a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: of
-    the square's angle.
+    The result is (area [px2], moment of x, moment of y [px3]), in A's raster. words: pixels of all rasters; a: RASTER
+    row of A; x, y [px]: centre of the square in A's raster; cosine, sine: cosine and sine of the square's angle.
     """
     column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0
@@ -421,7 +425,10 @@ def share_under(words, a, x, y, cosine, sine):
 
 @subkernel
 def sum_squares(pair):
-    """Return (area [px2], moment of x, moment of y [px3]) of the area that two masks share, summed square by square."""
+    """Return the area and moments of the overlap of the two masks of a SquaresPair, summed square by square.
+
+    The result is (area [px2], moment of x, moment of y [px3]), in A's raster.
+    """
     u, v, cosine, sine, words = pair.u, pair.v, pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     area = 0.0
@@ -458,7 +465,7 @@ def sum_squares(pair):
 
 
 class Shares(NamedTuple):
-    """Sums over the outline of mask B: the area that it shares with mask A, its moments, and its changes by a move."""
+    """Sums over the outline of mask B: area shared with mask A, its moments, and its changes when B moves."""
 
     area: float  # [px2]
     moment_x: float  # [px3] area times the centroid in A's raster
@@ -469,9 +476,10 @@ class Shares(NamedTuple):
 
 @subkernel
 def solid_before(words, row, stride, column):
-    """Return (number of solid pixels in the columns of a row before `column`, sum of the x of their centres [px]).
+    """Return (number, sum of x [px]) of the solid pixels of a row in the columns before `column`.
 
-    words: pixels of all rasters; row: index of the row's first word; stride: number of words per row.
+    x is that of the pixel's centre. words: pixels of all rasters; row: index of the row's first word; stride: number of
+    words per row.
     """
     count = 0.0
     centers = 0.0
@@ -485,7 +493,7 @@ def solid_before(words, row, stride, column):
 
 @subkernel
 def length_at(words, a, column, row):
-    """Return 1.0 if the pixel of mask A in a column and row is solid, else 0.0, also outside the raster.
+    """Return 1.0 if the pixel of mask A in a column and row is solid, else 0.0. Outside the raster it is 0.0.
 
     words: pixels of all rasters; a: RASTER row of A.
     """
@@ -496,10 +504,10 @@ def length_at(words, a, column, row):
 
 @inlined
 def share_in_row(words, a, row, px, py, qx, qy):
-    """Return the Shares of a line within one pixel row of mask A.
+    """Return the contribution of a line of B's outline to the Shares, where the line is within one pixel row of mask A.
 
-    words: pixels of all rasters; a: RASTER row of A; row: number of the pixel row, which contains the line from p to q
-    [px], py <= qy.
+    words: pixels of all rasters; a: RASTER row of A; row: index of the pixel row; px, py, qx, qy [px]: start and end of
+    the line in A's raster, py <= qy.
     """
     area, moment_x, moment_y = 0.0, 0.0, 0.0
     loss_x, loss_y = 0.0, 0.0
@@ -554,9 +562,9 @@ def with_share(shares, part):
 
 @subkernel
 def edge_share(words, a, px, py, qx, qy):
-    """Return the Shares of a line of B's outline.
+    """Return the contribution of a line of B's outline to the Shares of masks A and B.
 
-    words: pixels of all rasters; a: RASTER row of A; px, py, qx, qy [px]: ends of the line in A's raster.
+    words: pixels of all rasters; a: RASTER row of A; px, py, qx, qy [px]: start and end of the line in A's raster.
     """
     total = Shares(0.0, 0.0, 0.0, 0.0, 0.0)
     sign = 1.0
@@ -585,7 +593,7 @@ def edge_share(words, a, px, py, qx, qy):
 
 @subkernel
 def outline_shares(pair):
-    """Return the Shares of a SquaresPair."""
+    """Return the Shares of the two masks of a SquaresPair, computed along the outline of B."""
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     shares = Shares(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -630,7 +638,10 @@ LEAST_OUTLINED = 1.0  # [px2] a smaller area is summed square by square: its rou
 
 @subkernel
 def shared_squares(pair):
-    """Return the Shares of the masks of a SquaresPair."""
+    """Return the Shares of the two masks of a SquaresPair.
+
+    A small area is summed square by square, because its rounding errors are then relative to the area.
+    """
     shares = outline_shares(pair)
     if shares.area >= LEAST_OUTLINED:
         return shares

@@ -1,6 +1,7 @@
 """PixelTiles: a raster of pixels in tiles of 64 x 64, its connected pieces, and carving (removal of pixels).
 
-A node is an 8-connected component of the pixels inside one tile. A piece is an 8-connected component of all pixels.
+A node is an 8-connected component of the solid pixels inside one tile. A piece is an 8-connected component of all solid
+pixels.
 """
 
 import math
@@ -52,8 +53,8 @@ NODE = np.dtype(
 def trace_runs(words, runs_out, parents_out):
     """Write the runs of a tile (sequences of solid pixels in a row), and join runs that touch. Return their number.
 
-    words (64,) uint64: the tile's pixels; runs_out (n, 3): row, start, end of each run, end exclusive; parents_out
-    (n,): parent run of each run, a union-find forest. O(runs).
+    words (64,) uint64: pixels of the tile; runs_out (n, 3): row, start and end of each run, end exclusive; parents_out
+    (n,): parent run of each run, a union-find forest. Runs that touch, also diagonally, are in one tree. O(runs).
     """
     count = 0
     above = 0
@@ -83,8 +84,8 @@ def trace_runs(words, runs_out, parents_out):
 def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
     """Write the nodes (8-connected components) of a tile in the order of their first pixels. Return their number.
 
-    words (64,) uint64: the tile's pixels; tile: the tile's number; left, top [px]: position of the tile in its raster;
-    runs_out (2048, 3), parents_out (2048,) int64: scratch arrays; nodes_out (1024,) NODE. O(runs).
+    words (64,) uint64: pixels of the tile; tile: number of the tile; left, top [px]: position of the tile in its
+    raster; runs_out (2048, 3), parents_out (2048,) int64: scratch arrays; nodes_out (1024,): NODE rows. O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     found = 0
@@ -132,8 +133,8 @@ def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
 def pick_node(words, first, runs_out, parents_out, picked_out):
     """Write the pixels of one node: all pixels of a tile that are connected to pixel `first` inside the tile.
 
-    first: row * 64 + column; words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays, see find_nodes.
-    O(runs).
+    words (64,) uint64: pixels of the tile; first: row * 64 + column; picked_out (64,) uint64: pixels of the node;
+    runs_out, parents_out: scratch arrays, see find_nodes. O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     wanted = -1
@@ -150,10 +151,11 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 
 @subkernel
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
-    """Join the nodes of two adjacent tiles that touch, in a union-find forest.
+    """Join each two touching nodes of two adjacent tiles in a union-find forest.
 
     nodes: NODE rows; starts (tiles + 1,): index of the first node of each tile; tile, other: numbers of the two tiles;
-    across, down: columns and rows from `tile` to `other`; parents_inout (nodes,): parent of each node.
+    across, down: offset from `tile` to `other`, in columns and rows of tiles; parents_inout (nodes,): parent of each
+    node.
     """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
@@ -173,10 +175,11 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 @kernel
 def label_pieces(nodes, starts, columns, labels_out):
-    """Write the number of the piece to which each node belongs. Return the number of pieces. O(nodes).
+    """Write the number of each node's piece. Return the number of pieces. O(nodes).
 
     Pieces are numbered from 0 in the order of their first nodes. nodes: NODE rows in the order of tiles; starts (tiles
-    + 1,): index of the first node of each tile; columns: tiles per row; labels_out (nodes,): the result.
+    + 1,): index of the first node of each tile; columns: number of tiles per row; labels_out (nodes,): the piece
+    numbers.
     """
     for k in range(len(nodes)):
         labels_out[k] = k
@@ -209,10 +212,10 @@ def label_pieces(nodes, starts, columns, labels_out):
 
 @kernel
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
-    """Count the pixels of each piece, and find its first pixel in reading order. O(nodes).
+    """Add up the pixels of each piece, and find its first pixel in reading order. O(nodes).
 
     nodes: NODE rows; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,): the
-    numbers of pixels are added to it; firsts_inout (pieces,): it is lowered to row * width + column of the first pixel.
+    number of pixels of each piece is added; firsts_inout (pieces,): lowered to row * width + column of the first pixel.
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
@@ -227,8 +230,8 @@ def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
 def add_up(nodes, totals_out):
     """Write eight totals over the nodes of a raster to totals_out (8,). O(nodes).
 
-    They are: number of pixels, sum of columns, sum of rows, sum of column² + row², and the bounds left, top, right,
-    bottom; right and bottom are exclusive. Without nodes all are 0. nodes: NODE rows.
+    The totals are: number of pixels, sum of columns, sum of rows, sum of column² + row², and the bounds left, top,
+    right, bottom; right and bottom are exclusive. Without nodes all are 0. nodes: NODE rows.
     """
     for k in range(8):
         totals_out[k] = 0
@@ -258,13 +261,13 @@ FULL = np.uint64(2**64 - 1)
 def _room():
     """Return scratch arrays (runs, parents, nodes) for the kernels.
 
-    All callers share the arrays, so a caller copies its results before another call.
+    All callers share the arrays, so a caller must copy its results before another call.
     """
     return np.empty((MOST_RUNS, 3), np.int64), np.empty(MOST_RUNS, np.int64), np.empty(MOST_NODES, NODE)
 
 
 class Pieces(NamedTuple):
-    """The 8-connected pieces of a raster's pixels."""
+    """The 8-connected pieces of a raster's solid pixels."""
 
     labels: np.ndarray  # (nodes,) number of the piece of each node
     counts: np.ndarray  # (pieces,) number of pixels of each piece
@@ -272,7 +275,7 @@ class Pieces(NamedTuple):
 
 
 class PixelTiles:
-    """The pixels of a raster in tiles of 64 x 64, with the connected components inside each tile (nodes).
+    """Pixels of a raster in tiles of 64 x 64, with the connected components inside each tile (nodes).
 
     words[tile] (64,) uint64: one word per row of the tile; tiles are numbered row by row. nodes: NODE rows, in the
     order of tiles. starts (tiles + 1,): index of the first node of each tile.
@@ -305,7 +308,7 @@ class PixelTiles:
         return cls(width, height, list(words), nodes[np.argsort(nodes["tile"], kind="stable")])
 
     def _full_nodes(self, tiles: np.ndarray) -> np.ndarray:
-        """Return one NODE row for each of the fully solid tiles `tiles`, equal to the result of find_nodes."""
+        """Return the NODE rows of fully solid tiles, one for each tile number in `tiles`, as find_nodes would."""
         nodes = np.zeros(len(tiles), NODE)
         row, column = np.divmod(tiles, self.columns)
         squares = 0
@@ -320,12 +323,12 @@ class PixelTiles:
         return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
-        """Return the nodes (NODE rows) of one tile. words (64,): its pixels."""
+        """Return the nodes (NODE rows) of one tile. tile: number of the tile; words (64,) uint64: its pixels."""
         (runs, parents, nodes), (row, column) = _room(), divmod(tile, self.columns)
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 
     def replaced(self, changed: Mapping[int, np.ndarray]) -> "PixelTiles":
-        """Return a copy in which some tiles have other pixels.
+        """Return a copy of this raster in which some tiles have other pixels.
 
         changed: {tile number: (64,) uint64 words}; its arrays become read-only. O(tiles + runs of the changed tiles).
         """
@@ -341,7 +344,7 @@ class PixelTiles:
 
     @cached_property
     def pieces(self) -> Pieces:
-        """The 8-connected pieces of all pixels, computed at the first use. O(nodes)."""
+        """The 8-connected pieces of all solid pixels, computed at the first use. O(nodes)."""
         labels = np.empty(len(self.nodes), np.int64)
         count = label_pieces(self.nodes, self.starts, self.columns, labels)
         counts, firsts = np.zeros(count, np.int64), np.full(count, self.width * self.height)
@@ -356,7 +359,7 @@ class PixelTiles:
         return picked
 
     def node_at(self, tile: int, first: int) -> int:
-        """Return the number of the node that contains a solid pixel of a tile. first: row * 64 + column of it."""
+        """Return the index of the node that contains a solid pixel of a tile. first: row * 64 + column of the pixel."""
         begin, end = self.starts[tile : tile + 2].tolist()
         if end - begin == 1:
             return begin
@@ -364,10 +367,10 @@ class PixelTiles:
         return next(node for node in range(begin, end) if int(self.words_of(node)[row]) >> column & 1)
 
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
-        """Return the pixels of some nodes as (solid[row, column] bool, left, top).
+        """Return the pixels of the given nodes as (solid[row, column] bool, left, top).
 
-        solid covers the bounds of these pixels; left, top [px]: position of the bounds in the raster. nodes: node
-        numbers.
+        solid covers the bounding box of these pixels; left, top [px]: position of this box in the raster. nodes:
+        indices of nodes. The raster itself is not changed.
         """
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
@@ -399,7 +402,7 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return boxes around the pixels that differ from another raster, one for each tile that has such pixels.
+        """Return boxes around the pixels that differ from another raster, one box for each tile with such pixels.
 
         A box is (left, top, right, bottom) [px]; right and bottom are exclusive. other: a raster of the same size;
         tiles: numbers of the tiles to compare.
@@ -417,14 +420,14 @@ class PixelTiles:
 
     @property
     def solid(self) -> np.ndarray:
-        """The pixels as an array solid[row, column] bool. O(pixels)."""
+        """Pixels as an array solid[row, column] bool. O(pixels)."""
         return np.ascontiguousarray(unpacked(self.packed)[: self.height, : self.width])
 
     @property
     def packed(self) -> np.ndarray:
-        """The pixels as bits, (rows * 64, columns) uint64: bit b of word k in a row is pixel column 64k + b.
+        """Pixels as bits, (rows * 64, columns) uint64, where `rows` and `columns` count tiles.
 
-        O(words).
+        Bit b of word k in a row is the pixel in column 64k + b. O(words).
         """
         whole = np.array(self.words, np.uint64).reshape(self.rows, self.columns, TILE)
         return np.ascontiguousarray(whole.transpose(0, 2, 1)).reshape(-1, self.columns)
@@ -437,7 +440,7 @@ class PixelTiles:
 
     @property
     def sums(self) -> tuple[int, int, int, int]:
-        """Sums over the solid pixels as integers: (number, sum of columns, sum of rows, sum of column² + row²)."""
+        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
         count, x, y, squares = self._totals[:4]
         return count, x, y, squares
 
@@ -463,9 +466,10 @@ Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A piece that a cut separated: its pixels solid[row, column] bool, within their bounds.
+    """A piece that a cut separated, as an array of pixels.
 
-    left, top [px]: position of the bounds in the raster.
+    solid[row, column] bool: pixels in the bounding box of the piece; left, top [px]: position of this box in the
+    raster.
     """
 
     solid: np.ndarray
@@ -474,7 +478,7 @@ class Loose(NamedTuple):
 
 
 class Cut(NamedTuple):
-    """Result of `cut`: the remaining pixels, and the pieces that were separated from them."""
+    """Result of `cut`: the remaining pixels, and the pieces that the cut separated from them."""
 
     tiles: PixelTiles  # the remaining pixels
     changed: tuple[int, ...]  # numbers of the tiles with other pixels than before the cut
@@ -484,12 +488,12 @@ class Cut(NamedTuple):
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Remove the pixels that a tool covers, and all pieces that this separates from the rest. Return a Cut.
+    """Remove the pixels that a tool covers, and the pieces that this separates. Return a Cut.
 
-    The result lists the separated pieces, except pieces of fewer than `crumb` pixels. tool: see Tool; box [px]: bounds
-    of the tool in the raster. one_piece: True if only the largest of all pieces stays, False if each piece that existed
-    before the cut keeps its largest part. Of parts of equal size, the part with the first pixel stays. O(tiles + runs
-    of changed tiles).
+    one_piece: True if only the largest of all pieces stays, False if the largest part of each earlier piece stays. All
+    other pieces are separated. Of equally large ones, the one with the first pixel in reading order stays. The Cut
+    lists the separated pieces, except those of fewer than `crumb` pixels. tool: see Tool; box [px]: bounds of the tool
+    in the raster. O(tiles + runs of changed tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -518,9 +522,9 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile number: words without the pixels that the tool removes}, number of these pixels).
+    """Return ({tile number: words of the remaining pixels} for each changed tile, number of removed pixels).
 
-    tool: see Tool; box [px]: bounds of the tool in the raster.
+    tool: function that finds the pixels to remove, see Tool; box [px]: bounds of the tool in the raster.
     """
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
@@ -560,7 +564,7 @@ def _pieces_before(before, after, changed):
 
 @subkernel
 def is_in_hull(corners, radius, x, y):
-    """Return whether point (x, y) [px] is inside or on a convex hull that is rounded by a radius [px].
+    """Return whether point (x, y) [px] is inside or on the boundary of a convex hull rounded by a radius [px].
 
     corners (n, 2) [px], n >= 1, clockwise on the screen.
     """
@@ -584,11 +588,11 @@ def is_in_hull(corners, radius, x, y):
 
 @kernel
 def find_in_hull(words, left, top, corners, radius, found_out):
-    """Find the solid pixels of a tile with centres in a rounded convex hull. Return their number.
+    """Find the solid pixels of a tile whose centres are in a rounded convex hull. Return their number.
 
-    words (64,) uint64: the tile's pixels, one bit each; found_out (64,) uint64: the found pixels in the same form;
-    left, top [px]: position of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1, clockwise on the
-    screen; radius [px]. O(pixels within the hull's box · n).
+    words (64,) uint64: pixels of the tile, one bit each; found_out (64,) uint64: the found pixels in the same form;
+    left, top [px]: position of the tile in the hull's coordinate system; corners (n, 2) [px], n >= 1, clockwise on the
+    screen; radius [px]: rounding of the hull. O(pixels within the hull's box · n).
     """
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
@@ -614,7 +618,7 @@ def find_in_hull(words, left, top, corners, radius, found_out):
 
 @subkernel
 def is_in_pixels(solid, x, y):
-    """Return whether point (x, y) [px] is inside or on the square of a solid pixel of solid[row, column]."""
+    """Return whether point (x, y) [px] is inside or on the boundary of a solid pixel of solid[row, column] bool."""
     column, row = math.floor(x), math.floor(y)
     for j in range(row - 1 if y == row else row, row + 1):
         for i in range(column - 1 if x == column else column, column + 1):
@@ -625,11 +629,11 @@ def is_in_pixels(solid, x, y):
 
 @kernel
 def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
-    """Find the solid pixels of a tile with centres in solid pixels of another mask. Return their number.
+    """Find the solid pixels of a tile whose centres are in solid pixels of another mask. Return their number.
 
-    words (64,) uint64: the tile's pixels, one bit each; found_out (64,) uint64: the found pixels in the same form;
+    words (64,) uint64: pixels of the tile, one bit each; found_out (64,) uint64: the found pixels in the same form;
     solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the tile in the other mask's
-    raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
+    raster; cosine, sine: cosine and sine of the tile's angle in that raster. O(pixels of the tile).
     """
     count = 0
     for row in range(TILE):

@@ -1,1 +1,1 @@
-"""Shapes as immutable values, and their geometry in flat arrays, which kernels read."""
+"""Shapes as immutable values, and their geometry as flat arrays for kernels."""

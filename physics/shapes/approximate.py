@@ -1,4 +1,4 @@
-"""Simpler shapes that replace a pixel mask, from a circle to its exact pixels, and the accuracy of each."""
+"""Simpler shapes that can replace a pixel mask, from a circle to the mask itself, and measurement of their accuracy."""
 
 from __future__ import annotations
 
@@ -49,13 +49,13 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
     """Divide a simple polygon into convex polygons of 3 to 16 corners, and return them.
 
     points: corners (n, 2) [px], in either winding.
-    holes: polygons (n, 2) inside it that are cut out [px]; they may touch at corners.
-    tolerance: bumps and notches up to this depth are ignored [px], >= 0, which saves parts.
+    holes: polygons (n, 2) [px] inside the outline that are cut out; they may touch it and each other at corners.
+    tolerance: largest depth of bumps and notches that are ignored to save parts [px], >= 0.
 
-    With tolerance 0 the parts cover exactly the polygon, and are cut along lines between its corners. For a polygon of
-    at most 40 corners without holes, there is then no decomposition into fewer parts along such lines, unless a part
-    would need more than 16 corners. Raises ValueError for edges that cross or touch (the message names both), for zero
-    area, and for a hole that is not inside; TypeError if points or holes are not numbers.
+    With tolerance 0 the parts cover exactly the polygon, and the cuts between them lead from corner to corner. For a
+    polygon of at most 40 corners without holes, the number of parts is then the least possible with such cuts, unless a
+    part would need more than 16 corners. Raises ValueError for edges that cross or touch (the message names both), for
+    zero area, and for a hole that is not inside; TypeError if points or holes are not numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -67,7 +67,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
 
 
 def distinct(corners: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 2) of a convex polygon without equal and collinear ones, which Polygon would reject."""
+    """Return the corners (n, 2) of a convex polygon without equal and collinear corners, which Polygon rejects."""
     size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     k = 0
     while len(corners) > 2 and k < len(corners):
@@ -89,17 +89,17 @@ TIERS: tuple[TierName, ...] = get_args(TierName)
 
 
 def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape, ...]:
-    """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without pixels.
+    """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without solid pixels.
 
     mask: a PixelMask.
-    tier: one of TIERS, below.
-    tolerance: tolerance of the tier "parts" [px], > 0.
+    tier: one of the names below.
+    tolerance: depth of ignored bumps and notches in the tier "parts" [px], > 0.
 
     The tiers, from coarse to exact:
-        "circle": the smallest circle around all pixels
-        "aabb": the AABB of the pixels at each pose
+        "circle": the smallest circle around all solid pixels
+        "aabb": the AABB of the solid pixels at each pose
         "obb": the smallest oriented box
-        "capsule": the smallest capsule around all pixels
+        "capsule": a small capsule around all solid pixels
         "hull": the convex hull, with 16 corners at most
         "parts": convex polygons that ignore bumps and notches of up to tolerance [px] in the smoothed outline
         "outline": mask.outline, in convex parts, rounded where the sprite is round
@@ -107,7 +107,8 @@ def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape,
         "mask": the mask tested at its exact pose (snap=False)
 
     The shapes keep the mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask,
-    ValueError for an unknown tier or a tolerance <= 0.
+    ValueError for an unknown tier or a tolerance <= 0. For "pixels" and "mask" the result is the mask itself, even
+    without solid pixels.
     """
     _check_mask(mask)
     checks.choice("tier", tier, TIERS)
@@ -152,7 +153,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """Return the mask with this value of `snap`."""
+    """Return the mask if its `snap` has the given value, else a copy with this value, cached in mask.fitted."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -165,7 +166,7 @@ def _snapped(mask, snap):
 
 
 class Fit(NamedTuple):
-    """Accuracy and cost of shapes that replace a mask, as measure returns them.
+    """Accuracy and cost of shapes that replace a mask, returned by `measure`.
 
     over: area of the shapes outside the mask's pixels [px²].
     missed: area of the pixels outside the shapes [px²].
@@ -174,7 +175,8 @@ class Fit(NamedTuple):
     area_error: difference of the areas, divided by the pixels' area.
     center_error: distance of the centres of area [px].
     inertia_error: difference of the moments of inertia, each about its own centre, divided by the pixels' moment.
-    corners: number of corners: 1 per Circle, 2 per Capsule, 4 per Bounds; for a PixelMask, of its pixels' edges.
+    corners: number of corners: 1 per Circle, 2 per Capsule, 4 per Bounds; for a PixelMask the number of corners of its
+        pixel edges.
     bytes: memory of the shapes in a world: their table rows, corners and pixels (at one angle).
     """
 

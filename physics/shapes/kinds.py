@@ -1,4 +1,4 @@
-"""The list of all types of shapes, checks of arguments against it, and Bounds, the AABB of another shape as a shape."""
+"""List of all types of shapes, checks of arguments against it, and Bounds, the AABB of another shape as a shape."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from physics.tables.shape import BOUNDS
 
 @dataclass(frozen=True)
 class Bounds(EqualByValue):
-    """A shape that is the world AABB of another shape at its pose. It has the other's material, filter and sensor.
+    """The world AABB of another shape at its present pose, as a shape. It has that shape's material, filter and sensor.
 
     shape: a Circle, Capsule, Polygon or PixelMask.
 
-    Raises TypeError for another shape.
+    Raises TypeError if `shape` is of another type.
     """
 
     shape: Shape
@@ -97,7 +97,7 @@ def with_area() -> tuple[type[Shape], ...]:
 
 
 def names_of(types: Iterable[type[Shape]]) -> str:
-    """Return the names of types as a message lists them: "A, B or C"."""
+    """Return the names of types as text for an error message: "A, B or C"."""
     *most, last = (each.__name__ for each in types)
     return f"{', '.join(most)} or {last}" if most else last
 
@@ -116,7 +116,7 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
 
 
 def checked_shape(name: str, value: Any) -> Shape:
-    """Return a shape unchanged. Raises TypeError for anything else. name: name of the argument, for messages."""
+    """Return `value` if it is a shape, else raise TypeError. name: name of the argument, for the message."""
     if not isinstance(value, tuple(SHAPES)):
         hint = hints.in_place_of_shape(value)
         raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(value)}){hint}")
@@ -124,10 +124,10 @@ def checked_shape(name: str, value: Any) -> Shape:
 
 
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
-    """Check that a shape can have a pose, and return the pose as (x, y, angle) [px, px, rad].
+    """Return `pose` as (x, y, angle) [px, px, rad] if the shape can have this pose.
 
-    shape_name, pose_name: names of the arguments, for messages. Raises TypeError or ValueError if `pose` is not a pose,
-    or not one that the shape can have; TypeError if `shape` is not a shape.
+    shape_name, pose_name: names of the two arguments, for messages. Raises TypeError or ValueError if `pose` is not a
+    pose, ValueError if the shape cannot have its angle, and TypeError if `shape` is not a shape.
     """
     checked_shape(shape_name, shape)
     found = checks.pose(pose_name, pose)
@@ -137,10 +137,10 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Check that bodies of a kind can have these shapes. angles [rad]: the angles of these bodies.
+    """Raise an error if bodies of this kind at these angles [rad] cannot have these shapes.
 
     kind: STATIC, KINEMATIC or DYNAMIC. Raises TypeError for a value that is not a shape, ValueError for a shape that
-    such bodies cannot have.
+    such bodies cannot have. A dynamic body needs a shape with an area.
     """
     for shape in checked_shapes("shapes", shapes):
         shape._check_body(kind, angles)
@@ -152,14 +152,14 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rank_of(shape: Shape) -> int:
-    """Return the index of a shape's type in SHAPES. In a test of two shapes, the one of lower rank comes first."""
+    """Return the index of a shape's type in SHAPES. In a test of two shapes, the one with the lower index is first."""
     return next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
     """Return the total Mass of one or more shapes, with the inertia about their common centre of mass.
 
-    shapes: a shape, or a tuple or list of shapes. Area that they share counts once, with the highest of their
+    shapes: a shape, or a tuple or list of shapes. Area shared by several shapes counts once, with the highest of their
         densities.
     density: mass per area [per px²], > 0, of shapes without a material.
 

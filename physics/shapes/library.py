@@ -1,6 +1,6 @@
-"""Library: the geometry of all shapes of a world in flat arrays, which kernels read.
+"""Library: geometry of all shapes of a world in flat arrays, which kernels read.
 
-Other functions write the SHAPE rows of shapes, and the masses and sizes of BODY rows.
+Further functions write the SHAPE rows of shapes, and the masses and sizes in BODY rows.
 """
 
 import math
@@ -55,7 +55,7 @@ FEW = 64  # … number of removed shapes, up to which unused geometry is always 
 
 
 class Geometries(NamedTuple):
-    """All shapes of a library, one list for each kind of geometry, in the order of their geometry rows."""
+    """All shapes of a library in one list for each kind of geometry, in the order of their geometry rows."""
 
     outlines: list  # convex shapes
     chains: list
@@ -64,10 +64,10 @@ class Geometries(NamedTuple):
 
 
 class Library:
-    """The geometry of all shapes of a world as flat arrays. Each distinct geometry is stored once.
+    """Geometry of all shapes of a world as flat arrays. Each distinct geometry is stored once.
 
-    Convex shapes and chains share their geometry if their values are equal, tile grids and masks only if they are the
-    same object.
+    Convex shapes and chains share their geometry if their values are equal. Tile grids and masks share it only if they
+    are the same object.
     """
 
     def __init__(self) -> None:
@@ -104,17 +104,17 @@ class Library:
         return sum(table.count * table.data.itemsize for table in self.grown)
 
     def may_be_half_unused(self, shapes: int) -> bool:
-        """Return whether half of the geometry may be unused, so that copying the used half is worth its time.
+        """Return whether half of the geometry may be unused, so that copying the used half is worth the time.
 
-        This is so if more SHAPE rows were removed than are left (`shapes`), or if the size has more than doubled since
-        the last copy.
+        This is the case if more SHAPE rows were removed than now exist (`shapes`, a number), or if the size has more
+        than doubled since the last copy. A small constant is allowed in addition.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a new library with only the geometry that the SHAPE rows `shapes` use.
+        """Return a new library with only the geometry that the given SHAPE rows use.
 
-        The columns `geometry` and `raster` of these rows are updated to the new library.
+        The columns `geometry` and `raster` of these rows are updated to row numbers of the new library.
         """
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
@@ -148,9 +148,9 @@ class Library:
         return Geometry._make((*(table.data for table in self.grown), self.raster_of))
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
-        """Add the geometry of a shape unless it is present. Return (kind, geometry row, wrapped kind).
+        """Add the geometry of a shape if it is not stored yet. Return (kind, geometry row, wrapped kind).
 
-        The geometry row is -1 for a circle, which has no row. The wrapped kind is the kind of the shape inside a
+        The geometry row is -1 for a circle, which needs no geometry. The wrapped kind is the kind of the shape inside a
         Bounds, and -1 for any other shape.
         """
         inner = shape._inner.bare
@@ -158,7 +158,7 @@ class Library:
         return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
     def _row_of(self, shape):
-        """Return the geometry row of a shape, after adding its geometry if it is new."""
+        """Return the geometry row of a shape. Its geometry is added if it is not stored yet."""
         if shape not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
             self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
@@ -176,10 +176,10 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Copy convex shapes from another library in one pass. Return their new geometry rows.
+        """Copy convex shapes from another library, all at once. Return their new geometry rows.
 
-        rows: their geometry rows in `library`. A shape that `library.add` would not store again is not stored again by
-        this library either.
+        rows: geometry rows of the shapes in `library`. A shape that `library.add` finds as already stored is also found
+        by `add` of this library.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -252,10 +252,10 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Add shapes, such as the parts of a mask's outline, without a search for equal ones. Return an array (n, 3).
+        """Add shapes without searching for equal ones. Return an array (n, 3): for each shape the result of `add`.
 
-        Each row of the result is a result of `add`. This is faster than `add`, but stores convex shapes again that are
-        already present.
+        This is faster than `add`, and meant for shapes such as the parts of a mask's outline. Convex shapes that are
+        already present are stored again.
         """
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
@@ -270,7 +270,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library with the shapes of `shapes`, in which each shape's geometry row is its index in its list."""
+        """Return a library with the given shapes, in which each shape's geometry row is its index in its list."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -282,10 +282,10 @@ class Library:
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
         """Store the mask `new` in place of the mask `old` of one SHAPE row. Return its geometry row.
 
-        changed: numbers of the tiles in which the two masks differ; None: unknown. shapes: all SHAPE rows. Only these
-        tiles are written, in place, if the new mask is large, has snap=True, and no other SHAPE row uses the old mask:
-        O(changed words). Then the old hull is kept, so the AABB at other angles may be larger than the pixels.
-        Otherwise the new mask is added as by `add`.
+        changed: numbers of the tiles in which the two masks differ, None if unknown; shapes: all SHAPE rows. If the new
+        mask is large, has snap=True, and no other SHAPE row uses the old mask, only the changed tiles are overwritten:
+        O(changed words). The hull of the old mask is then kept, so the AABB at other angles may be larger than the
+        pixels. In all other cases the new mask is added by `add`.
         """
         row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -311,8 +311,8 @@ class Library:
     def _add_exact(self, shape):
         """Add the data of a mask for exact poses: its hull, for a tight AABB, and with snap=False also its halo words.
 
-        The halo is described in raster/exact.py. Return the values that the raster at the angle 0 holds: (first word of
-        the halo or -1, words per row, first corner of the hull, number of corners).
+        For the halo see raster/exact.py. Return the values that the RASTER row at angle 0 holds: (first word of the
+        halo or -1, words per row, first corner of the hull, number of corners).
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
@@ -323,7 +323,10 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add the raster of a mask rotated to an angle bucket (128 to a turn). mask: geometry row of the mask."""
+        """Add the raster of a mask rotated to an angle bucket, an index of 128 angles in a full turn.
+
+        mask: geometry row of the mask.
+        """
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -344,11 +347,14 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return all shapes of the library, in lists ordered by geometry row, for a snapshot. See Library.of."""
+        """Return all shapes of the library in lists ordered by geometry row, for a snapshot.
+
+        Library.of makes an equal library from the result.
+        """
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
-        """Return a shape equal to the one that a SHAPE row describes, without material, filter and sensor."""
+        """Return a shape equal to the one that a SHAPE row describes, but without material, filter and sensor."""
         kind, geometry = int(row["kind"]), int(row["geometry"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
         if geometry < 0:
@@ -360,7 +366,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """Return a context manager that removes at its end all geometry added inside it, such as that of a query."""
+        """Return a context manager. At its end, all geometry added inside it is removed, such as that of a query."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -377,7 +383,10 @@ class Library:
             self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
-        """Return the RASTER row of a mask at an angle [rad]; a missing one is added. mask: geometry row of the mask."""
+        """Return the RASTER row of a mask at an angle [rad], and add it if it is missing.
+
+        mask: geometry row of the mask.
+        """
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
@@ -385,7 +394,10 @@ class Library:
 
 
 def _drawn(shape, bucket):
-    """Return the pixels of a mask at an angle bucket: (packed words, size, origin, box of the solid pixels or None)."""
+    """Return the pixels of a mask at an angle bucket: (packed words, size, origin, box of the solid pixels or None).
+
+    size: (width, height) [px]; origin: origin of body space in the raster [px]; box: (left, top, right, bottom) [px].
+    """
     if bucket == 0:
         return shape.words, shape.size, shape.origin, shape.solid_box
     turned = shape.turned_to(bucket)
@@ -411,19 +423,18 @@ def _hull_of(shape):
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Find the rasters of masks at the present poses of their bodies, and write the columns raster, left and top.
+    """Write the columns raster, left and top of masks for the present poses of their bodies. Add missing rasters.
 
-    rows: indices of SHAPE rows; only those with the role PIXELS and snap=True are written. Missing rasters are added. A
-    mask is skipped if its body is beyond POSITION_LIMIT.
+    rows: indices of SHAPE rows; only masks with the role PIXELS and snap=True are written. A mask is skipped if its
+    body is beyond POSITION_LIMIT.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
 
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Find the rasters with which a picture shows masks at the present poses. Write the columns raster, left and top.
+    """Write the columns raster, left and top of masks for a picture at the present poses. Add missing rasters.
 
-    rows: indices of SHAPE rows; only masks with the role PIXELS or with snap=False are written. Missing rasters are
-    added.
+    rows: indices of SHAPE rows; only masks with the role PIXELS or with snap=False are written.
     """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
@@ -450,9 +461,9 @@ def _draw(library, rows, bodies, shapes):
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape.
+    """Return (rounding radius, x, y) [px] of a shape. x, y: centre of a circle in body space, 0 for other shapes.
 
-    For a Bounds, the values are those of the shape inside it. x and y are 0 for shapes other than circles.
+    For a Bounds, the values are those of the shape inside it.
     """
     inner = shape._inner
     x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
@@ -462,8 +473,8 @@ def rounding_of(shape: Shape) -> tuple[float, float, float]:
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
     """Return the Mass of a body with these shapes, sensors included.
 
-    density [mass per px2]: density of shapes without a material; mass: total mass of the body, 0: computed from the
-    densities.
+    density [mass per px2]: density of shapes without a material; mass: total mass of the body, or 0 to compute it from
+    the densities.
     """
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
@@ -472,10 +483,10 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
-    """Write mass, inertia and size to BODY rows. All these bodies have the shapes `shapes`.
+    """Write mass, inertia and size to BODY rows whose bodies all have the given shapes.
 
-    in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is the inradius of the
-    thinnest part.
+    mass: Mass of the shapes; in_parts: whether masks collide by the convex parts of their outlines. If so, the column
+    `inradius` is the inradius of the thinnest part.
     """
     in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
@@ -493,10 +504,10 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
 def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
-    """Fill one BODY row and one SHAPE row for the shape of a query, which belongs to no body of the world.
+    """Fill one BODY row and one SHAPE row with the shape of a query, which belongs to no body of the world.
 
-    The SHAPE row refers to the geometry of `shape` in the library. row: index in both tables; pose: (x, y, angle) [px,
-    px, rad].
+    The SHAPE row refers to the geometry of `shape` in the library, which is added if it is missing. row: index in both
+    tables; pose: (x, y, angle) [px, px, rad].
     """
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
@@ -507,10 +518,10 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows that all have the shape of a query, one row for each of several poses.
+    """Fill several SHAPE rows with the same shape of a query, one row for each pose.
 
-    rows: a view of the SHAPE rows; ids, body_rows: one number for all rows or one each; angles [rad]: angles of the
-    poses. For a mask with snap=True, the rasters at all angles are added.
+    rows: a view of the SHAPE rows; ids, body_rows: values of the columns `id` and `body_row`, one number for all rows
+    or one each; angles [rad]: angles of the poses. For a mask with snap=True, the rasters at all angles are added.
     """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
@@ -527,9 +538,9 @@ def describe(
 
 
 def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
-    """Return the indices (n,) int64 of the SHAPE rows that are parts of a mask in the wanted tiles. O(shapes).
+    """Return the indices (n,) int64 of the SHAPE rows that are parts of a mask in selected tiles. O(shapes).
 
-    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number.
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool: whether each tile, by tile number, is selected.
     """
     found = np.empty(len(shapes), np.int64)
     return found[: list_parts(shapes, owner, wanted, found)]
@@ -538,7 +549,7 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """Return, for each of k polygons, which SHAPE row has an equal polygon: an index into `rows` (n,), or -1 for none.
+    """Return, for each of k polygons, the index in `rows` (n,) of a SHAPE row with an equal polygon, or -1: (k,).
 
     Equal polygons have the same corners in the same order. geometry: tables of the library; corners (m, 2) [px]:
     corners of all polygons, one polygon after another; counts (k,): number of corners of each polygon. O(k n).
@@ -550,9 +561,10 @@ def find_equal(
 
 @kernel
 def list_parts(shapes, owner, wanted, rows_out):
-    """Write the indices of the SHAPE rows that are parts of a mask in the wanted tiles. Return their number. O(shapes).
+    """Write the indices of the SHAPE rows that are parts of a mask in selected tiles. Return their number. O(shapes).
 
-    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number; rows_out (shapes,) int64.
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool: whether each tile, by tile number, is selected; rows_out
+    (shapes,) int64: the indices.
     """
     count = 0
     for k in range(len(shapes)):
@@ -565,9 +577,9 @@ def list_parts(shapes, owner, wanted, rows_out):
 
 @kernel
 def find_polygons(geometry, shapes, rows, corners, counts, found_out):
-    """Write, for each polygon, which SHAPE row has an equal polygon: an index into `rows`, or -1 for none. O(k n).
+    """Write, for each polygon, the index in `rows` of a SHAPE row with an equal polygon, or -1. O(k n).
 
-    found_out (k,) int64: the result; other arguments: see find_equal.
+    found_out (k,) int64: the indices; other arguments: see find_equal.
     """
     first = 0
     for k in range(len(counts)):

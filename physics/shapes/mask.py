@@ -82,12 +82,12 @@ class PixelMask(Shape):
         self._forget()
 
     def _forget(self):
-        """Clear all cached values that were derived from the pixels."""
+        """Clear all cached values that are derived from the pixels."""
         self._turned, self._blocks = {}, {}
         self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
     def with_tiles(self, tiles: PixelTiles) -> PixelMask:
-        """Return a mask of the same size with other pixels, after carving. All other values are those of this mask.
+        """Return a mask of the same size with the given pixels, after carving. All other values are those of this mask.
 
         tiles: the new pixels, see PixelMask.tiles.
         """
@@ -104,7 +104,7 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> PixelMask:
-        """Return a copy of the mask with values of its own, which do not change when the body's values change.
+        """Return a copy of the mask with its own material, filter and sensor, which apply instead of the body's values.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
         one_way: whether bodies pass through the mask from below; None: as in this mask.
@@ -117,7 +117,7 @@ class PixelMask(Shape):
         return self._opened(wanted).with_(material, filter, sensor)
 
     def _opened(self, wanted):
-        """Return the mask with one_way = wanted, and without a material, filter and sensor of its own.
+        """Return the mask with one_way = wanted, and without its own material, filter and sensor.
 
         Repeated calls return the same object, so that a library stores its geometry once.
         """
@@ -130,7 +130,7 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> PixelMask:
-        """Return a copy of this mask with the own material, filter and sensor of another shape.
+        """Return a copy of this mask with the material, filter and sensor of another shape.
 
         If the other shape is a mask, its one_way is also copied.
         """
@@ -138,15 +138,12 @@ class PixelMask(Shape):
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
     def like(self, solid: np.ndarray, origin: Pair) -> PixelMask:
-        """Return a mask with other pixels, solid[row, col], and another origin [px].
-
-        All other values are those of this mask.
-        """
+        """Return a mask with the given pixels [row, col] and origin [px]. Its other values are those of this mask."""
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     @property
     def solid(self) -> np.ndarray:
-        """Solid pixels, solid[row, col] bool, read only."""
+        """Solid pixels [row, col] bool, read-only."""
         if self._solid is None:
             self._solid = self.tiles.solid
             self._solid.flags.writeable = False
@@ -154,7 +151,7 @@ class PixelMask(Shape):
 
     @cached_property
     def tiles(self) -> PixelTiles:
-        """The pixels in square tiles, so that carving can replace single tiles."""
+        """Pixels stored in square tiles, so that carving can replace single tiles."""
         return PixelTiles.of(self.solid)
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
@@ -180,14 +177,15 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> PixelMask:
-        """Return a mask of an array, as the constructor does.
+        """Return a PixelMask made from an array, as the constructor does.
 
         solid: solid pixels, bool [row, col]; an array of pygame.surfarray is [x, y], and needs .T.
-        origin: origin of body space in the image (x, y) [px], None: its centre.
-        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
+        snap: True: tested as drawn, on whole pixels; False: at the exact pose.
+        smooth: greatest distance of the outline from the pixels' edges [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
-        Raises TypeError or ValueError as PixelMask.
+        Raises TypeError or ValueError for the same arguments as PixelMask.
         """
         return cls(solid, origin, snap, smooth, one_way)
 
@@ -202,12 +200,14 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> PixelMask:
-        """Return a mask of a pygame surface.
+        """Return a PixelMask of the opaque pixels of a pygame surface.
 
         surface: a pygame.Surface: solid where alpha > threshold, clear where it has its colour key. Without alpha and
             colour key, as after convert(), it is solid everywhere.
-        threshold: 0 to 255; origin: origin of body space in the image (x, y) [px], None: its centre.
-        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        threshold: largest alpha of a clear pixel, 0 to 255.
+        origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
+        snap: True: tested as drawn, on whole pixels; False: at the exact pose.
+        smooth: greatest distance of the outline from the pixels' edges [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
         Raises TypeError if surface is not a pygame.Surface, ValueError for a threshold out of range, and the errors of
@@ -234,10 +234,12 @@ class PixelMask(Shape):
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
     ) -> PixelMask:
-        """Return a mask of a pygame Mask.
+        """Return a PixelMask with the set pixels of a pygame Mask.
 
-        mask: a pygame.Mask; origin: origin of body space in the image (x, y) [px], None: its centre.
-        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        mask: a pygame.Mask.
+        origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
+        snap: True: tested as drawn, on whole pixels; False: at the exact pose.
+        smooth: greatest distance of the outline from the pixels' edges [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
         Raises TypeError if mask is not a pygame.Mask, and the errors of PixelMask.
@@ -253,9 +255,9 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
     def flipped(self, x: bool = False, y: bool = False) -> PixelMask:
-        """Return the mirrored mask, together with its origin.
+        """Return a mirrored copy of the mask. Its origin is mirrored too.
 
-        x: mirror left to right; y: mirror top to bottom.
+        x: True to mirror left to right; y: True to mirror top to bottom.
 
         snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for an x or y that is not a bool.
         """
@@ -266,7 +268,7 @@ class PixelMask(Shape):
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     def scaled(self, factor: float) -> PixelMask:
-        """Return the mask and its origin scaled, by nearest-neighbour sampling at pixel centres.
+        """Return a copy of the mask scaled by nearest-neighbour sampling at pixel centres. Its origin is scaled too.
 
         factor: > 0. A side of n px becomes n · factor, rounded, at least 1.
 
@@ -281,17 +283,17 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the rotated pixels as a Turned. With snap=True, tests by pixels use them.
+        """Return the pixels rotated by an angle, as a Turned. Tests by pixels use them if snap is True.
 
         angle: [rad], rounded to the nearest of 128 angles.
 
-        The unrotated pixels are always the source, so errors do not add up. Results are cached, for large masks only
-        the latest. Raises TypeError or ValueError for an angle that is not a finite number.
+        The pixels are always rotated from angle 0, so errors do not add up. Results are cached; for large masks only
+        the last one. Raises TypeError or ValueError for an angle that is not a finite number.
         """
         return self.turned_to(self.bucket_at(angle))
 
     def bucket_at(self, angle: float) -> int:
-        """Return the number of the angle bucket nearest to `angle` [rad]. A full turn has 128 angle buckets.
+        """Return the index of the angle bucket nearest to `angle` [rad]. A full turn has 128 angle buckets.
 
         Raises TypeError or ValueError for an angle that is not a finite number.
         """
@@ -307,7 +309,10 @@ class PixelMask(Shape):
         return known[bucket]
 
     def blocks(self, bucket: int) -> list[tuple[int, int, int, int]]:
-        """Return rectangles (left, top, right, bottom) [px] that together cover the solid pixels at an angle bucket."""
+        """Return rectangles that together cover the mask's solid pixels at an angle bucket (index of 128 in a turn).
+
+        A rectangle is (left, top, right, bottom) [px], right and bottom exclusive.
+        """
         if bucket not in self._blocks:
             self._blocks[bucket] = solid_blocks(self.turned_to(bucket).solid)
         return self._blocks[bucket]
@@ -319,7 +324,7 @@ class PixelMask(Shape):
 
     @cached_property
     def _sums(self):
-        """Sums over the solid pixels as integers: (number, sum of columns, sum of rows, sum of column² + row²)."""
+        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
         if "tiles" in vars(self):
             return self.tiles.sums
         rows, columns = np.nonzero(self.solid)
@@ -346,7 +351,7 @@ class PixelMask(Shape):
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None if no pixel is solid."""
+        """Bounding box (min_x, min_y, max_x, max_y) [px] of the solid pixels in body space; None if there are none."""
         if self.solid_box is None:
             return None
         left, top, right, bottom = self.solid_box
@@ -355,18 +360,18 @@ class PixelMask(Shape):
 
     @cached_property
     def fingerprint(self) -> bytes:
-        """Hash of the pixels: 16 bytes."""
+        """Hash of the pixels, 16 bytes."""
         return blake2b(self.words.tobytes(), digest_size=16).digest()
 
     @cached_property
     def outline(self) -> tuple[Circle | Capsule | Polygon, ...]:
-        """Convex shapes in body space whose union has the mask's outline; () for a mask without pixels.
+        """Convex shapes in body space whose union has the mask's outline; () for a mask without solid pixels.
 
-        Response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
+        Contact response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
         `smooth` px of the pixels' edges, and each point of these edges is within smooth + 0.21 px of the outline. With
         smooth = 0 the outline is the pixels' edges. Separate pieces and holes are kept. Centres of solid pixels are
-        inside, centres of clear pixels outside. A corner between two straight rows of pixel edges of 3 px or more stays
-        sharp. A full rectangle becomes a box. The shapes share only sides, no area.
+        inside, centres of clear pixels outside. A corner between two straight rows of pixel edges, both of 3 px or
+        more, stays sharp. A full rectangle becomes a box. The shapes share sides, but no area.
 
         A round piece becomes one Circle, Capsule or Polygon with a radius. A Circle may be 0.13 px farther from the
         pixels' edges, and may contain centres of clear pixels up to 0.2 px inside it.
@@ -393,11 +398,11 @@ class PixelMask(Shape):
 
     @property
     def _thinnest_half(self) -> float:
-        """Smallest inradius [px] of the outline's convex parts. A body that moves farther in a step has to be swept.
+        """Smallest inradius [px] of the outline's convex parts, at least 0.5.
 
-        A thin arm passes a wall before the middle of the sprite does: sprites of 3 px blocks passed 1 px walls at half
-        their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it adjoins a thicker
-        part.
+        A body that moves farther than this in a step is swept. A thin part of a sprite passes through a wall at a lower
+        speed than the whole: sprites of 3 px blocks passed 1 px walls at half their size per step (measured). A part
+        thinner than 1 px counts as 1 px thick, because it adjoins a thicker part.
         """
         return min((max(0.5, part.shape.min_half_extent) for part in outline_of(self)), default=self.min_half_extent)
 
@@ -443,9 +448,9 @@ class PixelMask(Shape):
         return parts_of([rectangle(dx + left, dy + top, dx + right, dy + down) for left, top, right, down in blocks])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-        """Return [(tile number, outline parts)] that collide in place of the mask.
+        """Return the outline parts that collide in place of the mask, by tile: [(tile number, parts)].
 
-        For a one-way mask they are chains along its upper side.
+        For a one-way mask, the parts are chains along its upper side.
         """
         return [(WHOLE_MASK, surfaces_of(self))] if self.one_way else outline_by_tile(self)
 
@@ -461,9 +466,9 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return, for each column of a scaled mask, the column of the source that contains its centre: (n,) int64.
+    """Return, for each column of a scaled mask, the index of the source column that contains its centre: (n,) int64.
 
-    The same function serves for rows. size: number of columns of the source; factor: scale.
+    Also used for rows. size: number of columns of the source; factor: scale.
     """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of plane figures and of bodies. Area that shapes of a body share counts once."""
+"""Mass, centre of mass and inertia of plane figures and of bodies. Area shared by shapes of a body counts once."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -32,7 +32,7 @@ from physics.outline.measure import (
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass of shapes, as mass_of returns it.
+    """Mass, centre of mass and inertia of shapes, returned by mass_of.
 
     mass: [density px²].
     center: centre of mass (x, y) in body space [px].
@@ -48,7 +48,7 @@ NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
 
 
 def together(parts: Iterable[Mass]) -> Mass:
-    """Return the total mass of several parts, with the inertia about their common centre (parallel axis theorem)."""
+    """Return the total Mass of several parts, with the inertia about their common centre (parallel axis theorem)."""
     parts = [part for part in parts if part.mass > 0.0]
     if not parts:
         return NOTHING
@@ -65,9 +65,9 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Corners, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) [px] clockwise on the screen, by shoelace integrals.
+    """Return the Mass of a polygon, by shoelace integrals.
 
-    density [mass per px2].
+    points (n, 2) [px]: corners, clockwise on the screen; density [mass per px2].
     """
     base = np.array(points[0])
     a = np.array(points) - base
@@ -82,10 +82,10 @@ def polygon_mass(points: Corners, density: float) -> Mass:
 
 
 def rounded_mass(points: Corners, radius: float, density: float) -> Mass:
-    """Return the mass of a convex polygon rounded by a radius [px].
+    """Return the Mass of a convex polygon rounded by a radius [px].
 
-    It is the sum of the polygon, a rectangle along each side, and a sector at each corner. points (n, 2) [px]: corners,
-    clockwise on the screen; density [mass per px2].
+    The Mass is the sum of the polygon, a rectangle along each side, and a sector at each corner. points (n, 2) [px]:
+    corners, clockwise on the screen; density [mass per px2].
     """
     parts = [polygon_mass(points, density)]
     count = len(points)
@@ -122,15 +122,15 @@ def rounded_mass(points: Corners, radius: float, density: float) -> Mass:
 
 
 def disc_mass(center: Coordinates, radius: float, density: float) -> Mass:
-    """Return the mass of a disc. center, radius [px]; density [mass per px2]."""
+    """Return the Mass of a disc. center (x, y) [px]; radius [px]; density [mass per px2]."""
     mass = density * math.pi * radius * radius
     return Mass(mass, Vec2(*center), mass * radius * radius / 2.0)
 
 
 def capsule_mass(a: Coordinates, b: Coordinates, r: float, density: float) -> Mass:
-    """Return the mass of a capsule of radius r [px] about the line from a to b [px]: a rectangle and two half discs.
+    """Return the Mass of a capsule of radius r [px] around the line from a to b [px]: a rectangle and two half discs.
 
-    The centre of mass of a half disc lies 4r/3π beyond the end of the line. density [mass per px2].
+    The centre of mass of a half disc is 4r/3π beyond the end of the line. density [mass per px2].
     """
     length = math.hypot(b[0] - a[0], b[1] - a[1])
     middle, ends = density * 2.0 * r * length, density * math.pi * r * r
@@ -142,7 +142,7 @@ def capsule_mass(a: Coordinates, b: Coordinates, r: float, density: float) -> Ma
 
 
 def convex_mass(points: Corners, radius: float, density: float) -> Mass:
-    """Return the mass of a convex hull rounded by a radius [px].
+    """Return the Mass of a convex hull rounded by a radius [px].
 
     points: 1 or more corners [px], clockwise on the screen; density [mass per px2].
     """
@@ -162,7 +162,7 @@ def convex_mass(points: Corners, radius: float, density: float) -> Mass:
 
 
 class Hull(NamedTuple):
-    """A convex shape as input of weighed_once: corners in body space [px], rounding radius and density."""
+    """A convex shape as argument of weighed_once: corners in body space [px], rounding radius and density."""
 
     corners: tuple
     radius: float  # [px]
@@ -170,7 +170,7 @@ class Hull(NamedTuple):
 
 
 class Pixels(NamedTuple):
-    """A pixel mask as input of weighed_once, with its density [mass per px2]."""
+    """A pixel mask as argument of weighed_once, with its density [mass per px2]."""
 
     mask: Any  # a PixelMask; its module imports this one
     density: float
@@ -180,7 +180,10 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """Return the total mass of shapes, parts = [(shape, density)]. Shared area counts once, at the highest density."""
+    """Return the total Mass of shapes. Area shared by several shapes counts once, at the highest of their densities.
+
+    parts: [(shape, density)], density [mass per px2].
+    """
     if len(parts) < 2:
         return together(shape.mass_of(density) for shape, density in parts)
     figures = [_figure_of(shape, density) for shape, density in parts]
@@ -209,9 +212,9 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures that overlap, directly or through others. Figures that overlap no other are left out.
+    """Return the sets of figures that are connected by overlaps. Figures that overlap no other figure are omitted.
 
-    Equal figures overlap and are listed once.
+    Equal figures overlap, and are contained once in their set.
     """
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
@@ -224,7 +227,7 @@ def _groups(figures):
 
 
 def _near(figures):
-    """Return the index pairs of figures whose bounding boxes share area."""
+    """Return the pairs [index, index] of figures whose bounding boxes share area."""
     if len(figures) < 2:
         return []
     boxes = np.array([_box_of(each) for each in figures])
@@ -236,7 +239,7 @@ def _near(figures):
 def overlap(a: Hull, b: Hull) -> bool:
     """Return whether two rounded hulls share area, by the separating axis theorem.
 
-    Candidate axes are the normals of all sides and, because of the rounding, the lines from each corner of one hull to
+    The tested axes are the normals of all sides and, because of the rounding, the lines from each corner of one hull to
     each corner of the other.
     """
     first, second = np.array(a.corners), np.array(b.corners)
@@ -254,7 +257,7 @@ def overlap(a: Hull, b: Hull) -> bool:
 
 
 def _shares_pixels(a: Weighed, b: Weighed) -> bool:
-    """Return whether two figures share area. At least one of them is a mask."""
+    """Return whether two figures share area, where at least one of them is a mask."""
     window = _common(_box_of(a), _box_of(b))
     cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
     base = (window[0], window[1])
@@ -264,7 +267,7 @@ def _shares_pixels(a: Weighed, b: Weighed) -> bool:
 
 
 def _placed(figure: Pixels):
-    """Return (solid pixels [row, col], left, top) of a mask. left, top [px]: its top left corner in body space."""
+    """Return (solid, left, top) of a mask: its pixels [row, col] bool, and its top left corner in body space [px]."""
     return figure.mask.solid, -figure.mask.origin[0], -figure.mask.origin[1]
 
 
@@ -297,11 +300,11 @@ def _mass_of_group(group: set) -> Mass:
 
 
 def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
-    """Return the mass of overlapping shapes. Shared area has the density of the densest shape.
+    """Return the Mass of overlapping shapes. Shared area has the highest of the shapes' densities.
 
-    The mass is a sum of layers, one for each density in ascending order. A layer is the union of all shapes with at
-    least this density, weighed with the increase over the previous density. group: the shapes; found_of(shapes):
-    function that returns the Moments of their union.
+    The Mass is a sum of layers, one for each distinct density in ascending order. A layer is the union of all shapes
+    with at least this density; its density is the increase over the previous one. group: the shapes; found_of(shapes):
+    function that returns the Moments of the shapes' union.
     """
     densities = sorted({each.density for each in group})
     layers = []
@@ -313,12 +316,15 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Return the mass of overlapping hulls. Shared area counts once, and results are cached. group: the Hulls."""
+    """Return the Mass of overlapping hulls. Shared area counts once. Results are cached. group: the Hulls."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Return the mass of overlapping masks and hulls: the sum of both masses, minus that of shared area."""
+    """Return the Mass of the union of overlapping masks and hulls.
+
+    It is the sum over masks and hulls, minus that of the area that both cover.
+    """
     base = _box_of(masks[0])[:2]
 
     def union(dense):
@@ -335,9 +341,9 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
-    """Return the Sums of the area in the union of masks, about the point `base` [px].
+    """Return the Sums of the union of masks, about the point `base` [px].
 
-    They are the sums over all masks, minus area that is counted repeatedly.
+    They are the sums over all masks, minus those of area that is counted more than once.
     """
     sums = NO_SUMS
     for each in masks:

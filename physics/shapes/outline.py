@@ -1,4 +1,4 @@
-"""The outline of a pixel mask as convex shapes, for the whole mask or tile by tile; chains for a one-way mask."""
+"""Outline of a pixel mask as convex shapes, for the whole mask or tile by tile; chains for a one-way mask."""
 
 import math
 from collections import defaultdict
@@ -58,14 +58,14 @@ class Sprite(Protocol):
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, with flags for its sides and corners that are not on the outline."""
+    """Convex part of an outline in body space, with flags for its sides and corners that are not on the outline."""
 
     shape: Circle | Capsule | Polygon
     inner: int  # flags in the format of the column `inner` of SHAPE
 
 
 class Tile:
-    """The part of a mask's outline that lies in one square tile of the mask.
+    """Part of a mask's outline in one square tile of the mask.
 
     It depends on the pixels of the tile, and on those up to HALO px around it.
     """
@@ -94,7 +94,7 @@ def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None =
     """Return a Polygon for each list of corners.
 
     corners (n, 2) [px]: corners of all polygons, one polygon after another; counts (k,): number of corners of each
-    polygon; which: indices of the wanted polygons, None: all.
+    polygon; which: indices of the polygons to return, None for all.
     """
     points, ends = corners.tolist(), [0, *np.cumsum(counts).tolist()]
     some = range(len(counts)) if which is None else which.tolist()
@@ -102,7 +102,7 @@ def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None =
 
 
 class TiledParts(NamedTuple):
-    """The convex parts of one or more tiles of an outline in body space, one tile after another."""
+    """Convex parts of one or more tiles of an outline in body space, one tile after another."""
 
     corners: np.ndarray  # (n, 2) float64 [px]: corners part after part, clockwise on the screen
     counts: np.ndarray  # (k,) int64: number of corners of each part
@@ -111,9 +111,9 @@ class TiledParts(NamedTuple):
 
 
 def is_tiled(mask: Sprite) -> bool:
-    """Return whether the outline of a mask is stored in tiles.
+    """Return whether the outline of a mask is computed and stored in tiles.
 
-    This is so if a side of the mask exceeds LARGE_MASK px and not all of its pixels are solid.
+    This is the case if a side of the mask exceeds LARGE_MASK px and not all of its pixels are solid.
     """
     width, height = mask.size
     return max(width, height) > LARGE_MASK and mask.area < width * height
@@ -132,7 +132,7 @@ def tile_outlines(mask: Sprite, numbers: Sequence[int]) -> list[tuple[OutlinePar
 
 
 def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
-    """Return the outline parts of the tiles in `numbers` as arrays, in this order."""
+    """Return the outline parts of the tiles in `numbers` as arrays, in the order of `numbers`."""
     tiles, inner = _tiles(mask, numbers), _inner(mask, numbers)
     return TiledParts(
         np.concatenate([each.known.corners for each in tiles]),
@@ -143,12 +143,12 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Copy the cached outline tiles of the mask `old` to `mask`, and recompute those near differing pixels.
+    """Copy the cached outline tiles of the mask `old` to `mask`, and recompute those near changed pixels.
 
     Return the sorted numbers of the tiles whose outline may have changed: tiles with other parts, and their neighbours
     if corners on the common border changed. Both masks have the same size, origin and smooth; `old` may be the mask
-    itself with changed pixels. boxes: rectangles (left, top, right, bottom) [px] in the raster that contain all
-    changes, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
+    itself after a change of its pixels. boxes: rectangles (left, top, right, bottom) [px] in the raster that contain
+    all changes, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -184,7 +184,7 @@ def _known(mask, name) -> list:
 
 
 def _tiles(mask, numbers) -> list[Tile]:
-    """Return the Tile for each tile number. A tile is computed at its first use."""
+    """Return the Tile for each tile number. A Tile is computed when it is first requested."""
     known = _known(mask, "tiles")
     for number in numbers:
         if known[number] is None:
@@ -193,9 +193,9 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """Return, for each tile, the SHAPE.inner flags of its parts: which sides and corners are not on the outline.
+    """Return, for each tile number, the SHAPE.inner flags of the tile's parts: sides and corners not on the outline.
 
-    The flags are computed at the first use.
+    The flags of a tile are computed when they are first requested.
     """
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
@@ -208,7 +208,7 @@ def _inner(mask, numbers) -> list[np.ndarray]:
 
 
 def _near(number, rows, columns):
-    """Return the numbers of a tile and of its up to 8 neighbours, ascending. rows, columns: numbers of tiles."""
+    """Return the numbers of a tile and its up to 8 neighbours, ascending. rows, columns: size of the mask in tiles."""
     row, column = divmod(number, columns)
     across = range(max(column - 1, 0), min(column + 2, columns))
     return [y * columns + x for y in range(max(row - 1, 0), min(row + 2, rows)) for x in across]
@@ -219,9 +219,9 @@ def _near(number, rows, columns):
 
 
 def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
-    """Return the convex parts of a mask's outline; () for a mask without pixels.
+    """Return the convex parts of a mask's outline; () for a mask without solid pixels.
 
-    They are computed at the first call.
+    The parts are computed at the first call.
     """
     if "outline" not in mask.fitted:
         if is_tiled(mask):
@@ -236,7 +236,7 @@ def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
 
 
 def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
-    """Return [(tile number, outline parts)] for all tiles of a mask; [(WHOLE_MASK, all parts)] if it has no tiles."""
+    """Return [(tile number, outline parts)] for all tiles of a mask; without tiles, [(WHOLE_MASK, all parts)]."""
     if not is_tiled(mask):
         return [(WHOLE_MASK, outline_of(mask))]
     rows, columns = tiles_of(mask)
@@ -244,10 +244,10 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 
 
 def _placed(part, outline_turns, origin):
-    """Return a part as an OutlinePart in body space, with collinear sides merged.
+    """Return a Part in raster pixels as an OutlinePart in body space, with collinear sides merged.
 
-    A merged side counts as inner (not on the outline) if all sides that it consists of are inner. outline_turns [rad]:
-    turns of the outline at the corners, see corner_turns; origin [px]: origin of body space in the raster.
+    A merged side is inner (not on the outline) if all of the sides merged into it are inner. outline_turns [rad]: turns
+    of the outline at the corners, see corner_turns; origin [px]: origin of body space in the raster.
     """
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
@@ -266,11 +266,11 @@ def _bits(sides, turns):
 
 
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
-    """Return the turn [rad] of the outline of all parts at each corner, as one array (corners,) for each part.
+    """Return the turn [rad] of the outline at each corner of each part: one array (corners,) for each part.
 
-    A side that two parts share is inner; all other sides are on the outline. A corner between two sides on the outline
-    gets pi. A corner between two inner sides gets COVERED. At any other corner, the interior angles of all parts with
-    this corner (equal coordinates) are summed. The first of these parts gets pi minus the sum, or COVERED if the
+    A side shared by two parts is inner; all other sides are on the outline. At a corner between two sides on the
+    outline the result is pi, between two inner sides COVERED. At any other corner, the interior angles of all parts
+    with this corner (equal coordinates) are summed. The first of these parts gets pi minus the sum, or COVERED if the
     outline is not convex there. The other parts get COVERED.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
@@ -291,7 +291,7 @@ def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
 
 
 def _angles(corners):
-    """Return the interior angle [rad] at each corner of a convex polygon."""
+    """Return the interior angle [rad] at each corner of a convex polygon, corners (n, 2)."""
     before, after = np.roll(corners, 1, axis=0) - corners, np.roll(corners, -1, axis=0) - corners
     cross = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
     return np.arctan2(cross, (before * after).sum(axis=1)).tolist()
@@ -309,12 +309,12 @@ class Stretch(NamedTuple):
 
 
 def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
-    """Return chains in body space along the upper side of a mask's outline; () for a mask without pixels.
+    """Return chains in body space along the upper side of a mask's outline; () for a mask without solid pixels.
 
-    A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards. These
-    include the floors of holes. A chain ends at a vertical side or an underside. A vertical step of at most `smooth`
-    [px] between two upper sides is replaced by its middle, so that characters do not catch on it. The outline is the
-    result of outline.contour.outline. O(pixels) at the first call, then cached.
+    A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards. The
+    floors of holes are included. A chain ends at a vertical side or an underside. A vertical step of at most `smooth`
+    [px] between two upper sides is replaced by its middle point, so that characters do not catch on it. The outline is
+    the result of outline.contour.outline. O(pixels) at the first call, then cached.
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]
@@ -324,9 +324,9 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
 
 def _joined(ring, most):
-    """Return a closed outline in which each short vertical step between two upper sides is replaced by its middle.
+    """Return a closed outline with each short vertical step between two upper sides replaced by its middle point.
 
-    ring (n, 2) [px]: corners of the outline; most [px]: greatest height of such a step. Upper sides lead to the right.
+    ring (n, 2) [px]: corners of the outline; most [px]: greatest height of a short step. Upper sides lead to the right.
     """
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
@@ -336,9 +336,9 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Return the upper sides of a closed outline as lists of connected points, (k, 2) [px] each.
+    """Return the upper sides of a closed outline as arrays of connected points, (k, 2) [px] each.
 
-    ring (n, 2) [px]: corners of the outline, with the solid on its right. So its upper sides lead to the right.
+    ring (n, 2) [px]: corners of the outline, with the solid on its right. Upper sides therefore lead to the right.
     """
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
     first = int(np.flatnonzero(~right)[0])  # start at a side that does not lead right, so that no run crosses the start

@@ -1,4 +1,4 @@
-"""Shapes at the poses of their bodies: corners, AABBs, and the rasters of masks on and off the pixel grid."""
+"""Shapes at the poses of their bodies: corners, AABBs, and the rasters of masks, on whole pixels or at exact poses."""
 
 import math
 from typing import Any
@@ -22,8 +22,8 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 def exact_aabb(rasters, corners, raster, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at an exact pose of its body.
 
-    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row number
-    of the mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
+    For an empty mask it is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row number of the
+    mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -42,9 +42,10 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return the coordinates [px] of a world point (x, y) [px] in a mask's raster, from (0, 0) at its top left corner.
+    """Transform a point (x, y) [px] from the world into a mask's raster. Return its coordinates (x, y) [px].
 
-    raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation of the body.
+    The raster has its top left corner at (0, 0). raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation
+    of the body.
     """
     u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
@@ -52,7 +53,7 @@ def into_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
-    """Return the world position [px] of a point (x, y) [px] of a mask's raster.
+    """Transform a point (x, y) [px] from a mask's raster into the world. Return its coordinates (x, y) [px].
 
     raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation of the body.
     """
@@ -62,13 +63,16 @@ def out_of_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the row of the raster with which a mask is tested: as drawn for snap=True, else at the angle 0."""
+    """Return the row number of the RASTER with which a mask is tested: as drawn for snap=True, else at the angle 0.
+
+    shape: SHAPE row.
+    """
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at the pose of its tests.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at the pose at which it is tested.
 
     A mask with snap=True is tested as drawn, at whole pixels; any other mask at its exact pose. shape: SHAPE row.
     """
@@ -83,8 +87,9 @@ def box_as_tested(geometry, shape):
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
     """Return the pose of one mask's raster in the coordinates of another mask's raster, the frame.
 
-    The result is (x, y of the top left corner [px], cosine, sine of the angle). frame_body, frame_shape: BODY and SHAPE
-    row of the frame, which has snap=False; body, shape: rows of the first mask, with any `snap`.
+    The result is (x, y, cosine, sine): position of the top left corner [px], and cosine and sine of the angle.
+    frame_body, frame_shape: BODY and SHAPE row of the frame, which has snap=False; body, shape: rows of the other mask,
+    with any `snap`.
     """
     frame = geometry.rasters[raster_of_shape(geometry, frame_shape)]
     cosine, sine = cosine_and_sine(frame_body.angle, frame_body.angle)
@@ -101,7 +106,7 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
 
 @kernel
 def turn_of_mask(angle):
-    """Return (cosine, sine) of an angle [rad], rounded as in tests of masks at exact poses: quarter turns are exact."""
+    """Return (cosine, sine) of an angle [rad], with the rounding used in tests of masks: exact for quarter turns."""
     return cosine_and_sine(angle, angle)
 
 
@@ -118,9 +123,9 @@ BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference between a
 
 @subkernel
 def bucket_at(angle, buckets):
-    """Return the angle bucket nearest to an angle [rad], or 0 for an angle that is not finite.
+    """Return the index of the angle bucket nearest to an angle [rad]; 0 for an angle that is not finite.
 
-    Bucket k is k of `buckets` equal parts of a full turn.
+    Bucket k of `buckets` is the angle k / `buckets` of a full turn.
     """
     turn = angle * buckets / TAU + 0.5
     if not abs(turn) < WHOLE:
@@ -131,7 +136,7 @@ def bucket_at(angle, buckets):
 
 @subkernel
 def raster_at(geometry, mask, angle):
-    """Return the row of a mask's raster at an angle [rad]. The raster must have been added to the library.
+    """Return the row number of a mask's raster at an angle [rad]. The raster must have been added to the library.
 
     mask: geometry row of the mask.
     """
@@ -143,7 +148,7 @@ def snapped(coordinate, origin):
     """Return the pixel column of a drawn raster's left side, or the pixel row of its top side.
 
     The result is coordinate - origin, rounded half up; NOWHERE if it is not finite or too large. coordinate [px]: x of
-    the body for the column, y for the row; origin [px]: position of the body's origin in the raster.
+    the body for the column, y for the row; origin [px]: the same coordinate of the body's origin in the raster.
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
@@ -151,24 +156,27 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Return whether a SHAPE row is a mask with snap=True whose raster is added only when a test needs it.
+    """Return whether a SHAPE row is a mask with snap=True whose raster is only added when a test needs it.
 
-    The AABB in such a row is the AABB at the exact pose.
+    Such a row stores the AABB at the exact pose.
     """
     return shape.snap and shape.role == PIXELS
 
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return by how much [px] the drawn pixels of a mask may exceed the AABB in its SHAPE row; 0 for other shapes."""
+    """Return the largest distance [px] by which a mask's drawn pixels may exceed the AABB in its SHAPE row.
+
+    The result is 0 for other shapes. body, shape: BODY and SHAPE row of the mask.
+    """
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of a raster's solid pixels as they are drawn for a body at (x, y), on whole pixels.
+    """Return the AABB [px] of a raster's solid pixels as drawn on whole pixels, for a body at (x, y).
 
-    The AABB of an empty raster is the point (x, y). raster: RASTER row number.
+    The result is (min_x, min_y, max_x, max_y); for an empty raster the point (x, y). raster: RASTER row number.
     """
     r = geometry.rasters[raster]
     if r.area == 0:
@@ -181,7 +189,7 @@ def raster_aabb(geometry, raster, x, y):
 def upright_aabb(raster, x, y):
     """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not on whole pixels.
 
-    raster: RASTER row at the angle 0. The AABB of an empty mask is the point (x, y).
+    The result is (min_x, min_y, max_x, max_y); for an empty mask the point (x, y). raster: RASTER row at the angle 0.
     """
     if raster.area == 0:
         return x, y, x, y
@@ -191,7 +199,7 @@ def upright_aabb(raster, x, y):
 
 @subkernel
 def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the four corners [px] of a box, clockwise on the screen from the top left. Return 4, their number."""
+    """Write the four corners [px] of a box to corners_out, clockwise on the screen from the top left. Return 4."""
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
     corners_out[1, 0] = max_x
@@ -205,7 +213,7 @@ def box_corners(min_x, min_y, max_x, max_y, corners_out):
 
 @subkernel
 def is_upright_box(corners, count):
-    """Return whether the outline of `count` corners [px] is an axis-aligned box."""
+    """Return whether the polygon of the first `count` corners [px] is an axis-aligned box."""
     if count != 4:
         return False
     along_x = corners[0, 1] == corners[1, 1] and corners[2, 1] == corners[3, 1]
@@ -217,13 +225,13 @@ def is_upright_box(corners, count):
 
 @subkernel
 def round_half_up(value):
-    """Return the whole pixel nearest to a coordinate."""
+    """Return the integer nearest to a coordinate [px]; halves are rounded up."""
     return math.floor(value + 0.5)
 
 
 @subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
-    """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return their number.
+    """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return the number of corners.
 
     polygon: row of geometry.polygons; x, y [px], cosine, sine: pose of its body. polygons, table: geometry.polygons and
     geometry.corners, passed separately because passing the whole Geometry takes longer than this function.
@@ -258,19 +266,22 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
 
 @subkernel
 def is_hull(kind):
-    """Return whether shapes of this kind are one convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
+    """Return whether shapes of a kind are one convex hull with a rounding radius: not TILES, MASK or CHAIN."""
     return kind != TILES and kind != MASK and kind != CHAIN
 
 
 @subkernel
 def rounding(shapes, row):
-    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even if it wraps a round shape."""
+    """Return the rounding radius [px] of a SHAPE row that is a hull.
+
+    The result is 0 for a BOUNDS, even if the shape inside it is round. row: row number in SHAPE.
+    """
     return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
 
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """Return the AABB [px] of a chain whose body is at (0, 0), rotated by (cosine, sine).
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a chain whose body is at (0, 0), rotated by (cosine, sine).
 
     chain: row of geometry.chains. O(links); without rotation O(blocks of links).
     """
@@ -296,8 +307,9 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    The AABB of a mask is that of its solid pixels. They are on whole pixels if the mask has snap=True and its role is
-    not PIXELS, otherwise at the exact pose. The AABB of an empty mask is the point (x, y). row: row number in SHAPE.
+    For a mask it is the AABB of the solid pixels. They are drawn on whole pixels if the mask has snap=True and its role
+    is not PIXELS, otherwise they are at the exact pose. For an empty mask it is the point (x, y). row: row number in
+    SHAPE; x, y, angle [px, px, rad]: the pose.
     """
     s = shapes[row]
     kind = s.kind
@@ -324,10 +336,10 @@ def aabb_at(geometry, shapes, row, x, y, angle):
 
 @subkernel
 def hull_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Return their number.
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Return the number of corners.
 
-    The corners are clockwise on the screen. A circle has one corner, its centre; its radius is the result of
-    `rounding`. row: row number in SHAPE; x, y, angle [px, px, rad]: pose of its body.
+    The corners are clockwise on the screen. A circle has one corner, its centre; for its radius see `rounding`. row:
+    row number in SHAPE; x, y, angle [px, px, rad]: pose of its body.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -340,10 +352,10 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @subkernel
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose. Return their number.
+    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose. Return the number of corners.
 
-    Corners are clockwise on the screen; those of a BOUNDS are the corners of its AABB. row: row number in SHAPE; x, y,
-    angle [px, px, rad]: pose of its body; corners_out (16, 2).
+    The corners are clockwise on the screen; those of a BOUNDS are the corners of its AABB. row: row number in SHAPE; x,
+    y, angle [px, px, rad]: pose of its body; corners_out (16, 2): the corners.
     """
     if shapes[row].kind != BOUNDS:
         cosine, sine = rotation_of(angle)
@@ -354,7 +366,7 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull to corners_out (16, 2). Return (their number, rounding radius [px]).
+    """Write the world corners [px] of a hull to corners_out (16, 2). Return (number of corners, rounding radius [px]).
 
     Arguments: see hull_at.
     """
@@ -363,11 +375,11 @@ def write_hull(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
-    """List the rasters of masks that are needed now or at the end of the step and have not been added yet.
+    """List the rasters of masks that are needed now or at the end of the step, but have not been added yet.
 
-    Return the number found, which may exceed the capacity of missing_out. Only masks with snap=True need them. rows:
-    indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask, angle
-    bucket), possibly with duplicates. O(rows).
+    Return the number found, which may exceed the capacity of missing_out. Only masks with snap=True need such rasters.
+    rows: indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask,
+    angle bucket), possibly with duplicates. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
@@ -394,10 +406,10 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Place a mask with snap=True at its body's pose: write its raster, left and top, and the AABB of its pixels.
+    """Write raster, left, top and the AABB of a mask with snap=True for its body's pose to its SHAPE row.
 
-    rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer.
-    shape_inout: SHAPE row.
+    rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer. body:
+    BODY row; shape_inout: SHAPE row.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -415,8 +427,8 @@ def place_mask(rasters, raster_of, body, shape_inout):
 def place_masks(rows, geometry, bodies, shapes_inout):
     """Write the columns raster, left and top of masks for the poses of their bodies. O(rows).
 
-    left and top are the pixel column and row where the raster is drawn. rows: indices of SHAPE rows. shapes_inout:
-    SHAPE table.
+    raster: row number of the raster; left, top: pixel column and row of its top left corner as drawn. rows: indices of
+    SHAPE rows; shapes_inout: SHAPE table.
     """
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
@@ -429,9 +441,9 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of shapes at their bodies' poses; for drawn masks (snap=True) also raster, left and top.
+    """Write the tight AABBs of shapes at their bodies' poses; for masks with snap=True also raster, left and top.
 
-    rows: indices of SHAPE rows. O(rows). shapes_inout: SHAPE table.
+    rows: indices of SHAPE rows; shapes_inout: SHAPE table. O(rows).
     """
     polygons = geometry.polygons
     table = geometry.corners
@@ -469,13 +481,13 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of shapes at their bodies' poses. O(rows).
 
-    This is refresh_boxes for callers outside of kernels. rows: indices of SHAPE rows. shapes_inout: SHAPE table.
+    This is refresh_boxes for callers that are not compiled. rows: indices of SHAPE rows; shapes_inout: SHAPE table.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Add the rasters that masks with snap=True need at their angles now and after dt [s].
+    """Add the rasters that masks with snap=True need at their present angles and at those after dt [s].
 
     rows: indices of SHAPE rows.
     """

@@ -1,4 +1,4 @@
-"""Base class of all shapes; Filter and Material, of which a shape may have its own; convex parts of shapes."""
+"""Base class of all shapes, the classes Filter and Material for values of shapes, and convex parts of shapes."""
 
 import copy
 import math
@@ -24,11 +24,11 @@ from physics.tables.geometry import Geometry
 class Filter:
     """Collision filter: categories that a shape belongs to, and categories that it collides with, 32 bits each.
 
-    membership: bits of the shape's own categories, 0 to 0xFFFFFFFF.
-    mask: bits of the categories that it collides with, 0 to 0xFFFFFFFF.
+    membership: bits of the categories that the shape belongs to, 0 to 0xFFFFFFFF.
+    mask: bits of the categories that the shape collides with, 0 to 0xFFFFFFFF.
 
-    Shapes a and b collide if a.membership & b.mask and b.membership & a.mask are not 0. Filter.ALL collides with every
-    shape. Raises TypeError for a value that is not a whole number, ValueError for a value out of range.
+    Shapes a and b collide if a.membership & b.mask and b.membership & a.mask are both not 0. Filter.ALL has all bits
+    set. Raises TypeError for a value that is not a whole number, ValueError for a value out of range.
     """
 
     ALL: ClassVar["Filter"]  # collides with every shape
@@ -44,7 +44,7 @@ class Filter:
         object.__setattr__(self, "mask", checks.whole("mask", mask, 0, 0xFFFFFFFF))
 
     def __repr__(self):
-        """Return the constructor call with hexadecimal bits, or "Filter.ALL"."""
+        """Return the constructor call as text, with hexadecimal bits, or "Filter.ALL"."""
         if self.membership == self.mask == 0xFFFFFFFF:
             return "Filter.ALL"
         mask = "" if self.mask == 0xFFFFFFFF else f", mask={self.mask:#x}"
@@ -52,7 +52,7 @@ class Filter:
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
-        """Return the filter that is packed in 32 bits.
+        """Return the Filter whose two fields are packed in one 32-bit number.
 
         bits: membership in the low 16 bits, mask in the high 16 bits, 0 to 0xFFFFFFFF.
 
@@ -72,17 +72,18 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 @hints.unchangeable("body.material = replace(body.material, {name}={value}), of the module dataclasses")
 @dataclass(frozen=True)
 class Material:
-    """Density and surface of a shape.
+    """Density and surface properties of a shape.
 
     density: mass per area [per px²], > 0.
     friction: coefficient, >= 0; a contact has the geometric mean of both materials.
-    restitution: share of the approach speed after an impact, >= 0; a contact has the greater of both.
+    restitution: speed after an impact divided by the approach speed, >= 0; a contact has the greater of both.
     rolling_resistance: >= 0; a contact has the greater of both, and a torque against rolling of at most
         rolling_resistance · radius · load.
     surface_speed: speed of the surface along its tangent [px/s], as on a conveyor belt.
 
-    A value counts only with the effect of its name, surface_speed with conveyor, rolling_resistance with friction.
-    Raises TypeError for a value that is not a number, ValueError for a value out of range.
+    Except for density, a value acts only with an effect of the world: friction and restitution with the effect of the
+    same name, surface_speed with conveyor, rolling_resistance with friction. Raises TypeError for a value that is not a
+    number, ValueError for a value out of range.
     """
 
     density: float = 1.0
@@ -112,7 +113,7 @@ class Material:
 
 
 def checked_material(value: Any) -> Material:
-    """Return a Material unchanged. Raises TypeError for anything else."""
+    """Return `value` if it is a Material, else raise TypeError."""
     if not isinstance(value, Material):
         hint = hints.in_place_of_material(value)
         raise TypeError(f"material must be a Material (got {checks.shown(value)}){hint}")
@@ -120,7 +121,7 @@ def checked_material(value: Any) -> Material:
 
 
 def checked_filter(value: Any) -> Filter:
-    """Return a Filter unchanged. Raises TypeError for anything else."""
+    """Return `value` if it is a Filter, else raise TypeError."""
     if not isinstance(value, Filter):
         raise TypeError(f"filter must be a Filter (got {checks.shown(value)}){hints.in_place_of_filter(value)}")
     return value
@@ -143,7 +144,7 @@ class Parts(NamedTuple):
 
 
 def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
-    """Return the Parts with these convex outlines, each of 1 to 16 corners [px] clockwise on the screen.
+    """Return Parts made of convex outlines, each of 1 to 16 corners [px] clockwise on the screen.
 
     radii [px]: rounding radius, one number for all outlines or one each.
     """
@@ -155,22 +156,22 @@ def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Return Parts with these columns, and with the AABBs that follow from them. Shapes and units: see Parts."""
+    """Return Parts with these columns and with the AABBs computed from them. For shapes and units see Parts."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
 
 
 def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
-    """Return parts in body space placed in the world: body at (x, y) [px], rotated by (cosine, sine)."""
+    """Return Parts transformed from body space to the world, for a body at (x, y) [px] rotated by (cosine, sine)."""
     corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
     return with_boxes(corners, parts.counts, parts.radii)
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the parts whose AABBs overlap or touch a box (left, top, right, bottom) [px].
+    """Return the Parts whose AABBs overlap or touch the box (left, top, right, bottom) [px].
 
-    The box is enlarged by a margin for rounding errors.
+    The box is first enlarged by a margin for rounding errors.
     """
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
@@ -179,12 +180,12 @@ def parts_near(parts: Parts, left: float, top: float, right: float, bottom: floa
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
-    """Return the corners of the box left, top, right, bottom, clockwise on the screen."""
+    """Return the four corners of the box (left, top, right, bottom), clockwise on the screen from the top left."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 
 class Placed(NamedTuple):
-    """A shape of a world at its pose, with coordinates relative to a point (x, y) near it, for precision."""
+    """A shape of a world at its pose. For precision, coordinates are relative to a point (x, y) near the shape."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -197,7 +198,7 @@ class Placed(NamedTuple):
 
     @property
     def body(self) -> Any:
-        """The BODY row of the shape's body."""
+        """BODY row of the shape's body."""
         return self.bodies[self.shapes[self.row]["body_row"]]
 
     @property
@@ -218,12 +219,13 @@ class Placed(NamedTuple):
 class Shape:
     """Base of all shapes. A shape is an immutable value in body space [px], x right, y down, without a pose.
 
-    material, filter, sensor: its own Material, Filter and bool, see with_; None for each: the value of its body.
+    material, filter, sensor: own Material, Filter and bool of the shape, see with_; None for each: those of the body.
     points: corners of a convex shape, clockwise on the screen, or ends of the links of a chain [px].
     radius: radius of a circle or capsule, rounding of a polygon [px], 0 for other shapes.
 
-    Callers use these methods and never test the type. The defaults here suit ground: no mass, and hulls that rotate
-    with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the types.
+    Callers use these methods and never test the type. The methods of this class suit ground: no mass, and hulls that
+    rotate with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the
+    types.
     """
 
     material: Material | None = None  # own material, filter and sensor of the shape; None: its body's
@@ -241,7 +243,7 @@ class Shape:
     _may_turn: bool = True  # a body with this shape may have an angle other than 0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the Mass of the shape, 0 for lines and tiles.
+        """Return the Mass of the shape, which is 0 for lines and tiles.
 
         density: mass per area [per px²]; it is not checked.
         """
@@ -249,7 +251,7 @@ class Shape:
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) [px] in body space; None for empty shapes, tile grids and chains."""
+        """AABB (min_x, min_y, max_x, max_y) [px] in body space; None for empty shapes, tile grids and chains."""
         return None
 
     @property
@@ -263,9 +265,9 @@ class Shape:
         return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
-        """Return the distance [px] from a point to the farthest point of the shape.
+        """Return the distance [px] from the point (x, y) to the farthest point of the shape.
 
-        x, y: the point in body space [px]; they are not checked.
+        x, y: coordinates in body space [px]; they are not checked.
         """
         return max(math.hypot(px - x, py - y) for px, py in self.points) + self.radius
 
@@ -276,7 +278,7 @@ class Shape:
 
     @property
     def _key(self) -> tuple:
-        """Sort key among shapes of the same type: a tuple of numbers and bytes."""
+        """Sort key of the shape among shapes of the same type: a tuple of numbers and bytes."""
         return (self.radius, len(self.points), *(each for point in self.points for each in point))
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
@@ -288,7 +290,7 @@ class Shape:
 
     @property
     def _pixel_parts(self) -> Parts:
-        """The hulls of the shape as Parts in body space; for a mask, rectangles of pixels."""
+        """The shape's hulls (see _hulls) as Parts in body space; for a mask, rectangles of pixels."""
         hulls = self._hulls()
         return parts_of([corners for corners, _ in hulls], [radius for _, radius in hulls])
 
@@ -298,22 +300,25 @@ class Shape:
         return self._pixel_parts
 
     def _box_at(self, angle: float) -> Parts:
-        """Return the shape's AABB as one part, for a body at (0, 0) and `angle` [rad]; no part for an empty shape."""
+        """Return the shape's AABB as Parts with one part, for a body at (0, 0) and an angle [rad].
+
+        For an empty shape the result has no part.
+        """
         boxes = turned_parts(self._pixel_parts, 0.0, 0.0, math.cos(angle), math.sin(angle)).boxes
         return parts_of([rectangle(*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))] if len(boxes) else [])
 
     def _rotation(self, angle: float) -> tuple[float, float]:
-        """Return (cosine, sine) of an angle [rad], rounded as in the kernels for this type of shape."""
+        """Return (cosine, sine) of an angle [rad] with the rounding that kernels use for this type of shape."""
         return math.cos(angle), math.sin(angle)
 
     def _parts_at(self, placed: Placed) -> Parts:
-        """Return the convex parts of the shape at the pose of its body, in the coordinates of `placed`."""
+        """Return the convex Parts of a shape at its body's pose, in coordinates relative to (placed.x, placed.y)."""
         cosine, sine = self._rotation(placed.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile number, parts)] that collide in place of the shape; () if it has no parts.
+        """Return the parts that collide in place of the shape, by tile: [(tile number, parts)]; () if it has no parts.
 
         Each part has a SHAPE row.
         """
@@ -323,11 +328,11 @@ class Shape:
         """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return a copy of the shape with values of its own, which do not change when the body's values change.
+        """Return a copy of the shape with its own material, filter and sensor. They apply instead of the body's values.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
 
-        An own density counts in the body's mass. Raises TypeError for a value of another type.
+        The density of such a material is used for the body's mass. Raises TypeError for a value of another type.
         """
         material = None if material is None else checked_material(material)
         filter = None if filter is None else checked_filter(filter)
@@ -341,14 +346,14 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without a material, filter and sensor of its own.
+        """The shape without its own material, filter and sensor.
 
-        A library stores it once for all shapes that differ only in these values.
+        Shapes that differ only in these values have the same `bare` shape, so a library stores their geometry once.
         """
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:
-        """Return a copy of this shape with the own material, filter and sensor of another shape."""
+        """Return a copy of this shape with the material, filter and sensor of another shape."""
         return self.with_(other.material, other.filter, other.sensor)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:

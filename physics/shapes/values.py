@@ -1,4 +1,4 @@
-"""Shapes as immutable values: convex shapes, tile grids and lines."""
+"""Classes of shapes, which are immutable values: convex shapes, tile grids and lines."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ SHORTEST = 1e-9  # share of the hull's size: a shorter edge loses its direction 
 class Convex(EqualByValue):
     """Base of the convex shapes: the hull of `points`, 1 to 16 corners clockwise on the screen, rounded by `radius`.
 
-    A subclass is a frozen dataclass that provides `points`. A hull of one corner collides as a circle, a hull of two as
-    a capsule or a segment, a hull of more as a polygon.
+    A subclass is a frozen dataclass that provides `points`. A hull of one corner collides as a circle, one of two
+    corners as a capsule or segment, one of more corners as a polygon.
     """
 
     radius = 0.0  # a subclass declares a field `radius` without a default with field(), else 0.0 would be its default
@@ -78,12 +78,12 @@ class Convex(EqualByValue):
         return parts_of([corners[:count]], radius)
 
     def _facts(self) -> dict[str, Any]:
-        """Return the constructor's arguments except `points`, by name, as values that JSON can hold, for a snapshot."""
+        """Return {name: value} of the constructor's arguments except `points`, for a snapshot, as JSON can store it."""
         return {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name != "points"}
 
     @classmethod
     def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
-        """Return the shape that a snapshot stores. points: its corners; facts: the result of `_facts`.
+        """Return the shape stored in a snapshot. points: its corners; facts: the result of `_facts`.
 
         Raises TypeError or ValueError for arguments that the constructor rejects.
         """
@@ -96,7 +96,7 @@ class Circle(Convex):
     """A disc.
 
     radius: [px], > 0.
-    center: (x, y) in body space [px]; (0, 0) is the body's position.
+    center: (x, y) in body space [px]; the default (0, 0) is the body's position.
 
     Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a finite point.
 
@@ -119,7 +119,7 @@ class Circle(Convex):
 
 @dataclass(frozen=True)
 class Capsule(Convex):
-    """All points within a radius of the line from a to b.
+    """A capsule: all points within a distance `radius` of the line from a to b.
 
     a, b: ends of the line (x, y), in body space [px], two different points.
     radius: [px], > 0.
@@ -155,10 +155,10 @@ class Polygon(Convex):
     """A convex polygon, rounded by a radius.
 
     points: 3 to 16 corners (n, 2) in body space [px], in either winding; they are stored clockwise on the screen.
-    radius: rounding, added around the corners [px], >= 0.
+    radius: rounding radius, added around the polygon [px], >= 0.
 
     Raises TypeError for arguments of other types. Raises ValueError for another number of corners, for zero area, for
-    equal corners or three collinear corners, for a concave outline (decompose it), and for a radius below 0.
+    equal corners or three collinear corners, for a concave outline (`decompose` divides it), and for a radius below 0.
     """
 
     points: tuple[Vec2, ...]
@@ -190,7 +190,7 @@ class Polygon(Convex):
 
     @classmethod
     def known(cls, points: list[list[float]]) -> Polygon:
-        """Return a polygon whose corners are not checked.
+        """Return a polygon without checking its corners.
 
         points: corners [px], convex and clockwise on the screen.
 
@@ -205,9 +205,9 @@ class Polygon(Convex):
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> Polygon:
         """Return a rectangle as a Polygon.
 
-        width, height: full sizes [px], > 0.
-        center: its centre (x, y) in body space [px].
-        angle: its rotation about this centre [rad].
+        width, height: full side lengths [px], > 0.
+        center: centre of the rectangle (x, y) in body space [px].
+        angle: rotation of the rectangle about its centre [rad].
 
         Raises TypeError for arguments of other types, ValueError for values out of range.
 
@@ -235,8 +235,8 @@ class Polygon(Convex):
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Return disjoint rectangles (left, top, right, bottom) that cover the solid cells of solid[row, col].
 
-    Right and bottom are exclusive. Each rectangle is a sequence of solid cells in a row, extended down over the
-    following rows that have a sequence of the same columns.
+    Right and bottom are exclusive. Each rectangle is a maximal sequence of solid cells in one row, extended down over
+    the following rows as long as they have a sequence with the same ends.
     """
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
@@ -257,7 +257,8 @@ class TileGrid(Shape):
 
     solid: solid tiles, bool [row, col]. The origin of body space is the top left corner of tile [0, 0].
     tile_size: side of a tile [px], > 0.
-    one_way: platforms, through which bodies pass from below, bool [row, col], with the effect `one_way`; None: none.
+    one_way: one-way platforms, bool [row, col]; bodies pass through them from below. They need the effect `one_way`.
+        None: no platforms.
     slopes: number [row, col, 2]: height of the surface above the tile's bottom at its left and right side, as a
         fraction 0 to 1 of the tile; (0, 1) rises to the right, (0, 0) is no slope; None: no slopes.
 
@@ -329,10 +330,11 @@ class TileGrid(Shape):
         return (*self.solid.shape, self.tile_size, *cells)
 
     def _outlines(self, x: float, y: float, feet: float) -> list:
-        """Return the convex outlines of the tiles, with the grid's origin at (x, y) [px].
+        """Return the convex outlines of the tiles, each a list of corners (x, y) [px].
 
-        The outline of a one-way tile is the line along its top. It is left out if the lowest point of the other shape
-        is below this line. feet [px]: y of that point, relative to the grid's origin.
+        x, y [px]: position of the grid's origin; feet [px]: y of the lowest point of the other shape, relative to the
+        grid's origin. The outline of a one-way tile is the line along its top; it is omitted if `feet` is below this
+        line.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks
@@ -390,7 +392,10 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
 
 
 def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
-    """Raise TypeError for a pygame Mask or Surface, which NumPy would misread (packed words of a Mask as pixels)."""
+    """Raise TypeError for a pygame Mask or Surface, which NumPy would read as an array of wrong pixels.
+
+    name: name of the argument, for the message.
+    """
     pygame = sys.modules.get("pygame")  # a caller with a Mask has imported it; physics does not
     for kind, way_in in (("Mask", "from_mask(mask)"), ("Surface", "from_surface(surface)")):
         known = getattr(pygame, kind, None)
@@ -442,9 +447,9 @@ class Chain(EqualByValue):
 
     points: ends of the links (n, 2), in body space [px]; at least 2, at least 3 for a loop.
     loop: whether the last point is linked to the first.
-    ghosts: (before, after), points (x, y) [px] that continue the chain at both ends and only smooth collisions there;
-        each may be None.
-    materials: one Material per link; None: the body's.
+    ghosts: (before, after), points (x, y) [px] that continue the chain beyond its two ends; each may be None. They only
+        smooth collisions at the ends, and are not solid themselves.
+    materials: one Material per link; None: the material of the shape or body.
 
     A link of direction (dx, dy) is solid from the side to which (dy, -dx) points. So list the points of a floor from
     left to right, those of a solid island clockwise on the screen, and those of a room counter-clockwise. Raises
@@ -516,7 +521,7 @@ class Chain(EqualByValue):
 
     @property
     def links(self) -> int:
-        """Number of links, the lines between successive points."""
+        """Number of links (lines between successive points)."""
         return len(self.points) if self.loop else len(self.points) - 1
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:

@@ -1,1 +1,1 @@
-"""The tables of a world: dtypes, each field with its unit."""
+"""Tables of a world: NumPy dtypes of their rows, each field with its unit."""

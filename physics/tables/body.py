@@ -1,7 +1,7 @@
-"""Row types of bodies: BODY, one row per body, and BODY_DEF, the default values for the shapes of the body.
+"""Row types of bodies: BODY, one row per body, and BODY_DEF, the default values for the shapes of a body.
 
-Rows are in the order of ids. A row number changes when an earlier row is removed. An id never changes and is never
-reused.
+Rows are in the order of ids. A row number changes when an earlier row is removed. An id never changes, and is not
+reused after its body is removed.
 """
 
 from typing import get_args

@@ -1,4 +1,4 @@
-"""Row type CHARACTER: one row per Character, which moves in whole pixels."""
+"""Row type CHARACTER: one row for each Character, which moves in whole pixels."""
 
 import numpy as np
 

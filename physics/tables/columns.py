@@ -1,7 +1,7 @@
-"""Types of the arrays that a step leaves: their columns by name, so that a type checker rejects a misspelt column.
+"""Static types of the arrays that a step reports, with named columns: a type checker rejects a misspelt column.
 
-The arrays are plain NumPy structured arrays. These classes are only their static types: none is ever made. A test
-compares the names with the dtypes.
+The arrays are plain NumPy structured arrays; the classes of this module are never instantiated. A test compares their
+names with the dtypes.
 """
 
 from collections.abc import Iterator

@@ -10,19 +10,19 @@ from physics.tables.table import Record, in_lines, joined, row_of
 
 
 class Contact(Record):
-    """A row of world.contacts and world.sleeping_contacts."""
+    """A row of world.contacts or world.sleeping_contacts: one contact point of two shapes."""
 
 
 class Event(Record):
-    """A row of world.events: a pair of shapes that begins, continues or ceases to touch."""
+    """A row of world.events: a pair of shapes that starts, continues or ceases to touch."""
 
 
 class Hit(Record):
-    """A row of world.events.hits."""
+    """A row of world.events.hits: a contact with a high approach speed."""
 
 
 class Quarantined(Record):
-    """A row of world.events.quarantined."""
+    """A row of world.events.quarantined: a body that was disabled, with the reason."""
 
 
 CONTACT_FIELDS = np.dtype(
@@ -320,9 +320,10 @@ PUSH = np.dtype(
 
 @kernel
 def refresh_rows(bodies, shapes, manifolds_inout, there_out):
-    """Write the present body and shape row numbers of each CONTACT row, and whether all of them still exist.
+    """Write the present body and shape row numbers to each CONTACT row.
 
-    O(manifolds log shapes).
+    there_out (contacts,) bool: whether both bodies and both shapes of the contact still exist. O(contacts · log
+    shapes).
     """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -334,9 +335,10 @@ def refresh_rows(bodies, shapes, manifolds_inout, there_out):
 
 
 def with_rows(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> np.ndarray:
-    """Write the present body and shape row numbers to contacts. Return the contacts whose bodies and shapes exist.
+    """Write the present body and shape row numbers to contacts. Return the contacts that still exist.
 
-    bodies: BODY; shapes: SHAPE; contacts: CONTACT rows.
+    A contact still exists if both bodies and both shapes do. bodies: BODY rows; shapes: SHAPE rows; contacts: CONTACT
+    rows, updated in place.
     """
     there = np.empty(len(contacts), bool)
     refresh_rows(bodies, shapes, contacts, there)
@@ -344,5 +346,5 @@ def with_rows(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> n
 
 
 def without_removed(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> np.ndarray:
-    """Return the contacts whose bodies and shapes exist, as a copy with present row numbers. See with_rows."""
+    """Return a copy of the contacts whose bodies and shapes still exist, with present row numbers, see with_rows."""
     return with_rows(bodies, shapes, joined([contacts])) if len(contacts) else contacts

@@ -88,7 +88,7 @@ CELL = np.dtype(
 
 
 class Geometry(NamedTuple):
-    """The geometry of all shapes of a world as flat tables, the form in which kernels read it."""
+    """Geometry of all shapes of a world as flat tables for kernels."""
 
     polygons: np.ndarray  # SPAN of corners for each polygon; capsules and segments are hulls of two corners
     corners: np.ndarray  # CORNER [px] in body space, clockwise on the screen

@@ -156,7 +156,7 @@ COUPLING = in_lines(
 
 
 class Broken(Record):
-    """A row of world.events.broken."""
+    """A row of world.events.broken: a joint that broke or was removed."""
 
 
 BROKEN = np.dtype(

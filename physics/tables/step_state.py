@@ -1,4 +1,4 @@
-"""The tables of a world between steps, the StepState that the stages of a step share, and the work counters."""
+"""Tables of a world between steps, the StepState that the stages of a step share, and the work counters."""
 
 from collections.abc import Callable
 from typing import Any, Protocol, cast
@@ -45,10 +45,10 @@ COUNTERS = (
 
 
 class WorldTables(Protocol):
-    """The fields that a World and the StepState of its step have in common.
+    """Fields that a World and the StepState of its step have in common.
 
     Functions that run both between steps and within a step take a WorldTables, for example those for sleeping and
-    waking. A field annotated Any has a type from a package that imports this one.
+    waking. A field is annotated Any if its type belongs to a package that imports this one.
     """
 
     awake: Any  # islands.awake.Awake
@@ -62,7 +62,7 @@ class WorldTables(Protocol):
 
     @property
     def contact_rows(self) -> np.ndarray:
-        """CONTACT rows in the order of shape ids."""
+        """CONTACT rows, sorted by the ids of their shapes."""
         ...
 
     @contact_rows.setter
@@ -70,22 +70,22 @@ class WorldTables(Protocol):
 
     @property
     def joints(self) -> np.ndarray:
-        """JOINT rows."""
+        """JOINT rows of all joints."""
         ...
 
     @property
     def bodies(self) -> np.ndarray:
-        """BODY rows."""
+        """BODY rows of all bodies."""
         ...
 
     @property
     def shapes(self) -> np.ndarray:
-        """SHAPE rows."""
+        """SHAPE rows of all shapes."""
         ...
 
     @property
     def effects(self) -> Any:
-        """The Effects of the world: which parts of the simulation are switched on."""
+        """Effects of the world: which parts of the simulation are switched on."""
         ...
 
     @property
@@ -159,9 +159,9 @@ STAGE_FIELDS = (
 
 
 class StepState:
-    """The data that the stages of a step pass to each other. The comments of STAGE_FIELDS describe the fields.
+    """Data that the stages of a step pass to each other. The comments of STAGE_FIELDS describe the fields.
 
-    A field annotated Any has a type from a package that imports this one.
+    A field is annotated Any if its type belongs to a package that imports this one.
     """
 
     __slots__ = STAGE_FIELDS
@@ -206,7 +206,7 @@ class StepState:
 
 
 class Stage(Protocol):
-    """A function of a StepState that declares which fields of the state it reads and writes."""
+    """Type of a function of a StepState that declares which fields of the state it reads and writes."""
 
     stage: str
     reads: tuple[str, ...]
@@ -220,8 +220,8 @@ def stage(
 ) -> Callable[[Callable[[StepState], None]], Stage]:
     """Return a decorator that declares a function of a StepState as a stage of the step.
 
-    name: name of the stage in `world.stages`; reads, writes: fields that the stage reads and writes. Raises ValueError
-    for an unknown field.
+    name: name of the stage in `world.stages`; reads, writes: names of the fields that the stage reads and writes.
+    Raises ValueError for an unknown field.
     """
     for each in (*reads, *writes):
         if each.split(".")[0] not in STAGE_FIELDS:
