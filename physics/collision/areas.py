@@ -98,9 +98,10 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     """Return the CONTACT rows with the areas [px2] that their two shapes share at the present poses.
 
     The rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels
-    overlap. Every point of a contact has the area that the whole shapes share. Against tiles and chains, it has only
-    the area in the touched run of tiles or link. Without contact response, a step only tests whether two masks overlap.
-    For pairs of masks this function then also computes point, normal and depth. tables: a World or StepState.
+    overlap. Each point of a contact has the area that the whole shapes share. Against tiles and chains, each point has
+    only the area in the run of tiles or link that it touches. Without contact response, a step only tests whether two
+    masks overlap. In this case the function also computes point, normal and depth of pairs of masks. tables: a World or
+    StepState.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -128,15 +129,17 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 def put_back(full, places, manifolds_out):
     """Copy each CONTACT row of `full` over the row of the same candidate pair in manifolds_out.
 
-    places (pairs,): row number in manifolds_out for each pair; the column `candidate` of `full` is the index in
-    `places`.
+    places (pairs,): row number in manifolds_out of each candidate pair, indexed by the column `candidate` of `full`.
     """
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
 def _in_full(tables, manifolds):
-    """Return the CONTACT rows; those of two masks that still overlap get a newly computed point, normal and depth."""
+    """Return the CONTACT rows with point, normal and depth of pairs of masks computed at the present poses.
+
+    Only masks that still overlap are updated; all other rows are returned unchanged.
+    """
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)

@@ -63,8 +63,9 @@ ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's normal ins
 def link_at(links, link, x, y, cosine, sine, corners_out):
     """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and the far ends of its neighbours.
 
-    The order is a, b, before, after: "before" is the far end of the previous link, "after" that of the next link.
-    links: LINK table; link: row number in it; x, y [px], cosine, sine: pose of the chain's body.
+    A link is one line of a chain. The order of the points is a, b, before, after: "before" is the far end of the
+    previous link, "after" that of the next link. links: LINK table; link: row number in it; x, y [px], cosine, sine:
+    pose of the chain's body.
     """
     k = links[link]
     for end in range(4):
@@ -128,9 +129,9 @@ def is_gentle_hollow(points, i, j, k):
 def is_behind(link, points, x, y):
     """Return whether a shape with its centre at (x, y) is behind a link, and therefore does not collide with it.
 
-    At a gentle hollow the centre may slide past the end of the neighbouring link, and so get behind this link. It does
-    not count as behind this link while it is in front of the neighbouring link. link: LINK row; points: the link's ends
-    and the far ends of its neighbours [px], see link_at.
+    There is an exception at a gentle hollow between this link and a neighbouring link. If the centre has slid past the
+    neighbour's end, but is still in front of the neighbour's line, it does not count as behind this link. link: LINK
+    row; points: the link's ends and the far ends of its neighbours [px], see link_at.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -245,8 +246,8 @@ def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
     The neighbour at the end towards which (nx, ny) points is tested. It is better if the Hull's centre (x, y) is in
-    front of it, and all corners of the Hull are farther than `face` [px] in front of it. face: the Hull's separation
-    from this link; points: this link's ends and the far ends of its neighbours [px], see link_at.
+    front of it, and each corner of the Hull is in front of it by more than `face`. face [px]: the Hull's separation
+    from this link. points: this link's ends and the far ends of its neighbours [px], see link_at.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -265,8 +266,8 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
     separation from this plane is greater than `face` and at most `margin`. face [px]: the Hull's separation from the
-    link's face; margin [px]: largest gap of a contact. link: LINK row; points: see link_at; manifold_out (11,): result,
-    format in hulls.clip_edges.
+    link's face; margin [px]: largest gap of a contact. link: LINK row; points: the link's ends and the far ends of its
+    neighbours [px], see link_at; manifold_out (11,): result, format in hulls.clip_edges.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -298,7 +299,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the contact points at end a of a link that the previous link reports. Return the number of remaining points.
+    """Drop contact points at a link's end a if the previous link reports them. Return the number of remaining points.
 
     x, y: centre of the other shape; count: number of points in the manifold before the call; manifold_out (11,): the
     manifold, format in hulls.clip_edges. link: LINK row; points: the link's ends and the far ends of its neighbours
@@ -327,8 +328,8 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
 
     Where two links meet, only one of them reports a contact. If each of them expects the other to report it, the caller
     tests the links a second time. is_second: True in this second pass; then the link reports all of its contacts. link:
-    LINK row; points: see link_at; `points` and the Hull need edge normals, see hulls.write_normals; margin, bias,
-    manifold_out: as in hulls.collide_hulls.
+    LINK row; points: the link's ends and the far ends of its neighbours [px], see link_at; `points` and the Hull need
+    edge normals, see hulls.write_normals; margin, bias, manifold_out: as in hulls.collide_hulls.
     """
     corners = hull.corners
     count = hull.count
@@ -409,15 +410,19 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box min_x .. max_y."""
+    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from a box.
+
+    min_x, min_y, max_x, max_y: the box.
+    """
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
 @inlined
 def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contacts of candidate number `pair`, a chain and another shape, link by link. Return the new number.
+    """Append the contacts of candidate number `pair`, a chain and another shape, link by link.
 
-    The other shape is a hull or mask. O(links near the other shape). Arguments: see manifold.make_pass.
+    Return the new number of contacts. The other shape is a hull or mask. O(links near the other shape). Arguments: see
+    manifold.make_pass.
     """
     geometry = batch.geometry
     bodies = batch.bodies
@@ -583,8 +588,8 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 def was_across(batch, surface, other, most, workspace):
     """Return whether, at the poses before the step, a shape overlapped a one-way surface by more than `most` [px].
 
-    surface: row number in SHAPE of the surface, a chain; other: row number in SHAPE of the other shape; batch: a
-    manifold.Batch; workspace: scratch memory.
+    surface: row number in SHAPE of the surface, a chain; other: row number in SHAPE of the other shape; batch: input of
+    the pass, a manifold.Batch; workspace: scratch memory.
     """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
@@ -607,10 +612,10 @@ def was_across(batch, surface, other, most, workspace):
 def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
     """Change the kind of each SURFACE_ANY pair: to CHAIN_ANY if its shapes may collide, else to NOTHING.
 
-    A SURFACE_ANY pair is a one-way surface and another shape. They may collide if they touched in the last step, or if
-    the other shape did not overlap the surface at the previous poses. known: whether workspace.memory holds the
-    contacts of the last step. kinds_inout (candidates,): kind of each pair; counts_inout: number of pairs of each kind.
-    O(candidates + nearby links). batch: a manifold.Batch.
+    A SURFACE_ANY pair is a one-way surface and another shape. Its shapes may collide if they touched in the last step,
+    or if the other shape did not overlap the surface at the previous poses. known: whether workspace.memory holds the
+    contacts of the last step; kinds_inout (candidates,): kind of each pair; counts_inout: number of pairs of each kind.
+    O(candidates + nearby links). batch: input of the pass, a manifold.Batch.
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -60,8 +60,8 @@ NEVER = -1.0  # in place of a time: the shapes do not meet
 def needs_ccd(body, distance):
     """Return whether a body that moves by `distance` [px] in a step needs continuous collision detection.
 
-    It does if it is not static and `distance` exceeds its inradius. Such a body gets no speculative contacts. body:
-    BODY row.
+    This is the case for a body that is not static if `distance` exceeds its inradius. Such a body gets no speculative
+    contacts. body: BODY row.
     """
     return body.kind != STATIC and distance > body.inradius
 
@@ -70,9 +70,9 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    If a body needs continuous collision detection, this is `margin` [px]. Otherwise it is the distance covered in
-    `lookahead` [s] at the greatest of three speeds, but at least `margin`. The speeds are `speed` [px/s], that of B
-    relative to A, and the speed of each body, because contacts may stop the other body. a, b: BODY rows.
+    If a body needs continuous collision detection, the result is `margin` [px]. Otherwise it is `lookahead` [s] times
+    the greatest of three speeds, but at least `margin`. The speeds are `speed` and the speeds of A and B, because other
+    contacts may stop one of the bodies. a, b: BODY rows; speed [px/s]: speed of B relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -146,8 +146,8 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap between two Hulls has shrunk to `target` [px] (conservative advancement).
 
     Hull B (b_inout) moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their positions at the returned
-    time. If the gap stops shrinking before it reaches the target, the time of least distance is returned. NEVER: the
-    target is not reached within `most` [s], or within MAX_ADVANCES iterations. Both Hulls need edge normals
+    time. If the gap stops shrinking before it reaches the target, the time of least distance is returned. If the target
+    is not reached within `most` [s], or within MAX_ADVANCES iterations, NEVER is returned. Both Hulls need edge normals
     (hulls.write_normals). O(corners²) an iteration.
     """
     time = 0.0
@@ -190,7 +190,7 @@ def advance_to_contact(margin, lookahead, p, q, a, b, corners_out):
     time [s]: time until the contact, or NEVER; 0 if the pair is too slow for a prediction, and then corners_out (16, 4)
     is not valid. vx, vy [px/s]: velocity of B relative to A. reach [px]: largest separation of a contact point after
     the move; more than `margin` if rotation may close a wider gap. a, b: the Hulls; p, q: BODY rows of A and B; margin
-    [px]: gap at the predicted contact; lookahead [s]: greatest time.
+    [px]: gap at the predicted contact; lookahead [s]: contacts are predicted up to this time.
     """
     if lookahead * closing_speed_bound(p, q) <= margin and lookahead * turning_speed(p, q) <= margin:
         return 0.0, 0.0, 0.0, margin
@@ -209,8 +209,8 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
     """Return the time [s] at which the gap between a Hull and a moving disc has shrunk to `target` [px].
 
     x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. If the gap stops
-    shrinking before it reaches the target, the time of least distance is returned. NEVER: the target is not reached
-    within `most` [s], or within MAX_ADVANCES iterations. O(corners) an iteration.
+    shrinking before it reaches the target, the time of least distance is returned. If the target is not reached within
+    `most` [s], or within MAX_ADVANCES iterations, NEVER is returned. O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
     time = 0.0
@@ -239,10 +239,11 @@ def path_offsets(time, vx, vy, nx, ny):
 
 @subkernel
 def move_manifold_back(time, vx, vy, points_inout):
-    """Convert a manifold from the predicted position of B, at the contact, to B's present position.
+    """Convert a manifold that was computed with B moved to its predicted contact, to B's present position.
 
-    time [s]: time until the contact; vx, vy [px/s]: velocity of B until then; points_inout (11,): the manifold, format
-    in hulls.clip_edges. Return the distance [px] that B moves along the tangent (-ny, nx) until the contact.
+    Return the distance [px] that B moves along the tangent (-ny, nx) until the contact. time [s]: time until the
+    contact; vx, vy [px/s]: velocity of B until the contact; points_inout (11,): the manifold, format in
+    hulls.clip_edges.
     """
     nx, ny = points_inout[1], points_inout[2]
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
@@ -279,7 +280,7 @@ def travel_of(batch, ground, body):
     """Return the Travel of a body relative to the ground. ground, body: BODY rows.
 
     Slow bodies, and fast bodies that need continuous collision detection, get no prediction: their Travel has reach =
-    margin and time = 0. batch: a manifold.Batch.
+    margin and time = 0. batch: input of the pass, a manifold.Batch.
     """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
@@ -291,11 +292,11 @@ def travel_of(batch, ground, body):
 
 @subkernel
 def advance_to_piece(travel, margin, piece, hull, corners_out):
-    """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
+    """Write the corners [px] of a Hull at its predicted contact with a piece of ground to corners_out (16, 4).
 
-    The time is that until the contact. If travel.time is 0, there is no prediction: the Hull is not moved, and 0 is
-    returned. margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link; corners_out (16,
-    4): receives corners and edge normals.
+    Return the time [s] until this contact, or NEVER. If travel.time is 0, there is no prediction: the Hull is not
+    moved, and 0 is returned. travel: motion of the Hull; margin [px]: gap at the predicted contact; piece: Hull of a
+    run of tiles or of a link; corners_out: receives edge normals too.
     """
     copy_corners(hull, corners_out)
     if travel.time == 0.0:
@@ -307,11 +308,11 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 
 @subkernel
 def move_piece_manifold_back(time, travel, sign, points_inout):
-    """Convert a manifold of ground and hull from the hull's predicted contact position to its present position.
+    """Convert a manifold of ground and hull from the hull's predicted contact to the hull's present position.
 
-    time [s]: time until the contact; travel: motion of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout
-    (11,): the manifold, format in hulls.clip_edges. Return the distance [px] that the hull moves along the tangent
-    until the contact.
+    Return the distance [px] that the hull moves along the tangent until the contact. time [s]: time until the contact;
+    travel: motion of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): the manifold, format in
+    hulls.clip_edges.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -368,7 +369,7 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
     meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
     hulls.collide_hull_circle or chains.collide_link_circle for the disc at this position. pair, manifolds_out, found:
-    as in manifold.add_manifold. batch: a manifold.Batch; workspace: scratch memory.
+    as in manifold.add_manifold. batch: input of the pass, a manifold.Batch; workspace: scratch memory.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -391,7 +392,7 @@ def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
     """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of contacts.
 
     The manifold was computed at the predicted contact `meeting`; it is converted to the hull's present position. pair,
-    manifolds_out, found: as in manifold.add_manifold. batch: a manifold.Batch.
+    manifolds_out, found: as in manifold.add_manifold. batch: input of the pass, a manifold.Batch.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -443,9 +444,9 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of candidate number `pair`, a circle and a hull of two or more corners. Return the new number.
+    """Append the contact of candidate number `pair`, a circle and a hull of two or more corners.
 
-    Arguments: see manifold.make_pass.
+    Return the new number of contacts. Arguments: see manifold.make_pass.
     """
     bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
@@ -493,9 +494,9 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls have a narrow contact face: their extents overlap by at most `most` [px] along it.
 
-    far: whether the Hulls move far in this step. If so, the face is also narrow if its two contact points are at most
-    `most` apart. For slow Hulls this does not count, because such a contact may carry a load (the edge of a card).
-    manifold (11,): format in hulls.clip_edges.
+    far: whether the Hulls move far relative to each other in this step. If so, the face is also narrow if its two
+    contact points are at most `most` apart. This does not count for slow Hulls, because such a contact may support a
+    body, as the edge of a card does. manifold (11,): format in hulls.clip_edges.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -529,9 +530,9 @@ def is_grazing(a, b, batch, p, q, manifold):
 
 @inlined
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of candidate number `pair`, two hulls of two or more corners each. Return the new number.
+    """Append the contact of candidate number `pair`, two hulls of two or more corners each.
 
-    Arguments: see manifold.make_pass.
+    Return the new number of contacts. Arguments: see manifold.make_pass.
     """
     bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points

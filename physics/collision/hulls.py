@@ -125,8 +125,8 @@ def write_normals(count, corners_inout):
     """Write the outward unit normal of each hull edge to the row of the edge's first corner. O(count).
 
     count: number of corners; corners_inout (16, 4): columns 0 and 1 are the corners [px], columns 2 and 3 receive the
-    normals. Computing each normal once saves time: a square root and two divisions take longer than the test of an
-    edge.
+    normals. Tests of many edges read them from there, because a square root and two divisions take longer than the
+    test.
     """
     for k in range(count):
         nx, ny = edge_normal(corners_inout, count, k)
@@ -149,9 +149,9 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull.
 
     No normal is valid at a corner that is not touchable (covered by a neighbouring part of the same shape). At a corner
-    where only one edge is on the outline of the whole shape, the normal must be within an angle of this edge's normal.
-    The angle is stored in `edges`. At other corners every normal is valid. corner: index of the corner; edges: bits,
-    see ALL_EDGES; count: number of corners.
+    with only one edge on the outline of the whole shape, the normal must be near the normal of this edge; the largest
+    angle is stored in `edges`. At other corners every normal is valid. corner: index of the corner; edges: bits, see
+    ALL_EDGES; count: number of corners.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -194,10 +194,10 @@ def find_max_separation(corners, count, allowed, other, other_count):
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
-    The opposite edge is clipped to the reference edge. Both Hulls need edge normals, see write_normals. edge: index of
-    the reference edge; limit [px]: points with a larger separation are dropped; flipped: True if `reference` is B, so
-    that the normal is inverted. manifold_out (11,) float64: number of points, normal x and y from A to B, then x, y,
-    separation [px] and feature id of each of two points. Return the number of points.
+    The opposite edge is clipped to the reference edge. Return the number of points. Both Hulls need edge normals, see
+    write_normals. edge: index of the reference edge; limit [px]: points with a larger separation are dropped; flipped:
+    True if `reference` is B, so that the normal is inverted. manifold_out (11,) float64: number of points, normal x and
+    y from A to B, then x, y, separation [px] and feature id of each of two points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -290,9 +290,10 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
     """Collide a convex polygon with a disc. Return (found, nx, ny, px, py, separation, feature); lengths in px.
 
     found: whether there is a contact; nx, ny: unit normal to the disc; px, py: contact point, midway between the
-    surfaces. edges: bits of the touchable edges and corners, see ALL_EDGES. If the nearest edge or corner is not
-    touchable, nothing is found, because a neighbouring part reports the contact. If the centre of the disc is inside,
-    the nearest touchable edge is used; without such an edge, feature is COVERED. O(count).
+    surfaces. edges: bits of the edges and corners that are touchable (not covered by a neighbouring part), see
+    ALL_EDGES. If the nearest edge or corner is not touchable, nothing is found, because the neighbouring part reports
+    the contact. If the centre of the disc is inside, the nearest touchable edge is used; without such an edge, feature
+    is COVERED. O(count).
     """
     best = -1
     inner = -1
@@ -461,9 +462,9 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return t in 0..1, so that a + t (b - a) is the point of the line segment from a to b nearest to (x, y).
+    """Return the parameter t, 0 to 1, of the point of the line segment from a to b that is nearest to (x, y).
 
-    ax, ay, bx, by: ends of the segment.
+    The point is a + t (b - a). ax, ay, bx, by: ends of the segment.
     """
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
@@ -565,8 +566,8 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 def ends_face(corners, count, edges, corner, nx, ny):
     """Return whether a corner is an end of a touchable edge whose normal is within 6 degrees of (nx, ny).
 
-    corners, count: the polygon; corner: index of the corner; edges: bits of the touchable edges and corners, see
-    ALL_EDGES; nx, ny: unit vector.
+    corners, count: the polygon; corner: index of the corner; edges: bits of the edges and corners that are touchable
+    (not covered by a neighbouring part), see ALL_EDGES; nx, ny: unit vector.
     """
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
@@ -591,9 +592,9 @@ def is_over(corners, count, edge, x, y):
 def pushing_edges(a, b, over_ends):
     """Return bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
 
-    An edge of A may push if the corner of B that faces it is touchable, and its normal is valid there (see
-    is_normal_at_corner). over_ends: True to include also edges of A that lie over an end of a nearly parallel touchable
-    edge of B. All bits of corners are set in the result, see ALL_EDGES.
+    An edge may push if its inverted normal is valid at the corner of B that faces it, see is_normal_at_corner.
+    over_ends: True to include also edges of A that are nearly parallel to a touchable edge of B and over one of its
+    ends. All bits of corners are set in the result, see ALL_EDGES.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -659,7 +660,7 @@ def extent_along(corners, count, nx, ny):
 def path_misses(a, b, allowed, vx, vy):
     """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    If it never does, the caller drops the predicted contact: its normal, fixed for the whole step, would deflect B.
+    If so, the caller drops the predicted contact: its normal, fixed for the whole step, would deflect B.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -673,10 +674,10 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners each (SAT, clipping). Return the number of points.
 
     margin [px]: a larger separation gives no points. bias [px]: B has the reference face only if its greatest face
-    separation exceeds that of A by more than `bias`, so the reference does not alternate between equal faces. deepest
-    [px]: an overlap deeper than this gives no points if it is less deep behind an edge that a neighbouring part covers.
-    Then manifold_out[0] is COVERED_OVERLAP. Both Hulls need edge normals, see write_normals. manifold_out (11,): format
-    in clip_edges. O(corners of A · corners of B).
+    separation exceeds that of A by more than `bias`. So the reference does not alternate between equal faces. deepest
+    [px]: an overlap deeper than this gives no points if a neighbouring part covers an edge behind which the overlap is
+    less deep. Then manifold_out[0] is COVERED_OVERLAP. Both Hulls need edge normals, see write_normals. manifold_out
+    (11,): format in clip_edges. O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b
@@ -778,8 +779,8 @@ def collide_hull_circle(hull, x, y, radius):
     """Collide a Hull of two or more corners with a disc. Return (found, nx, ny, px, py, separation, feature).
 
     found: whether there is a contact; nx, ny: unit normal from hull to disc; px, py [px]: contact point, midway between
-    the surfaces. x, y, radius [px]: centre and radius of the disc. Edges that are not touchable, and a disc whose
-    centre is inside the Hull, are treated as in collide_polygon_circle.
+    the surfaces. x, y, radius [px]: centre and radius of the disc. If the disc's centre is inside the Hull, or the
+    nearest edge or corner is covered by a neighbouring part, the result is as in collide_polygon_circle.
     """
     corners = hull.corners
     rounding = hull.radius

@@ -33,8 +33,8 @@ def are_whole(manifolds):
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     """Return (CONTACT rows that name whole shapes instead of their parts, index in `manifolds` of each row).
 
-    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. If no contact is with a
-    part, the result is (`manifolds` itself, None).
+    The rows are sorted by the ids of the whole shapes; A is the shape with the smaller id. If no contact is with a part
+    of a larger shape, the result is (`manifolds` itself, None).
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -154,7 +154,7 @@ def new_workspace() -> Workspace:
 
 
 def empty_hulls(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return new arrays (Workspace.hulls, Workspace.hull_rows) for `count` hulls (a power of two), without hulls."""
+    """Return (hulls, hull_rows) for a Workspace, with room for `count` hulls (a power of two), none stored."""
     return np.zeros((16 * count, 4)), np.full((count, 2), -1)
 
 
@@ -336,8 +336,8 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 
     collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the contacts of candidate number
     `pair` at row `found`, and returns the new number of contacts. work_inout: counters of work done. may_touch(batch,
-    pair) is a cheap test that selects pairs. It is called without branches for a block of pairs, then the selected
-    pairs are collided; this avoids branch mispredictions. Both functions must be inlined: passing a whole Batch to a
+    pair) is a cheap test that selects pairs. The kernel first tests a block of pairs without branches, then collides
+    the selected pairs, which avoids branch mispredictions. Both functions must be inlined: passing a whole Batch to a
     call costs more than a test of two circles.
     """
 
@@ -469,7 +469,7 @@ def contacts_of(manifolds: np.ndarray) -> np.ndarray:
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity (x, y) [px/s] of the point of a body that is at (x, y) in the world. body: BODY row."""
+    """Return the velocity (x, y) [px/s] of the point of a body at world position (x, y) [px]. body: BODY row."""
     return (
         body.vx - body.angular_velocity * (y - body.center_y),
         body.vy + body.angular_velocity * (x - body.center_x),

@@ -127,8 +127,8 @@ def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_ou
 
     Return the number of contacts written: 1, or 0 if no face may push. pairs: indices of candidate pairs of overlapping
     parts of the two shapes; last_x, last_y: unit normal of the last step, which is preferred, or (0, 0); starts_out
-    (pairs + 1,), faces_out (FACES · pairs, 4): scratch; manifolds_out: CONTACT rows. O(faces²). batch: a
-    manifold.Batch; workspace: scratch memory.
+    (pairs + 1,), faces_out (FACES · pairs, 4): scratch; manifolds_out: CONTACT rows. O(faces²). batch: input of the
+    pass, a manifold.Batch; workspace: scratch memory.
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -170,10 +170,10 @@ def depth_of(manifold):
 
 @kernel
 def find_deep(bodies, manifolds, count, deep, flags_out):
-    """Write to flags_out whether each contact is between parts, deeper than `deep` [px], and has a dynamic body.
+    """Write to flags_out whether each contact is of a part, is deeper than `deep` [px], and has a dynamic body.
 
-    Return the number of such contacts. manifolds: CONTACT rows, of which the first `count` are in use; flags_out
-    (count,) bool.
+    A contact is of a part if one of its shapes is a part of a larger shape. Return the number of flagged contacts.
+    manifolds: CONTACT rows, of which the first `count` are in use; flags_out (count,) bool.
     """
     found = 0
     for i in range(count):
@@ -224,9 +224,9 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
     """Drop each contact of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
-    Return the number of remaining contacts. With this rule, the nearer wall of a notch pushes a body out that is wider
-    than the notch; otherwise both walls would squeeze it. manifolds: CONTACT rows, of which the first `count` are in
-    use; flags (count,): scratch.
+    Return the number of remaining contacts. Without this rule, both walls of a notch would squeeze a body that is wider
+    than the notch; with it, the nearer wall pushes the body out. manifolds: CONTACT rows, of which the first `count`
+    are in use; flags (count,): scratch.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -237,10 +237,10 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
     """Return additional CONTACT rows, at most one for each pair of whole shapes that has parts in the fallback queue.
 
-    A pair of shapes gets a row if none of its contacts overlap, or if an overlap is deeper than batch.margin, because
-    such contacts may push along a wall instead of out of it. found: CONTACT rows of this step; previous: CONTACT rows
-    of the last step, whose normals are preferred so that the push does not alternate in direction; batch: a
-    manifold.Batch; workspace: scratch memory with the queue.
+    A pair of shapes gets a row if none of its contacts overlap. It also gets one if an overlap is deeper than
+    batch.margin, because such contacts may push a body along a wall instead of out of it. found: CONTACT rows of this
+    step; previous: CONTACT rows of the last step, whose normals are preferred so that the push does not alternate in
+    direction; batch: input of the pass; workspace: scratch memory with the queue.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])

@@ -362,8 +362,8 @@ def square_in_polygon(corners, count, x, y):
 def square_depths(hull, x, y, depths_out):
     """Return whether the unit square with top left corner (x, y) shares area with a convex polygon.
 
-    The square's depths are added to depths_out. hull: the polygon; depths_out (16,): for each edge of the polygon, the
-    greatest depth [px] behind the edge of all squares tested so far.
+    If so, depths_out is raised to the square's depths where these are greater. hull: the polygon; depths_out (16,): for
+    each edge of the polygon, the greatest depth [px] behind the edge of all squares tested so far.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
@@ -383,9 +383,10 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 def collide_mask_polygon(raster, hull, depths_out):
     """Collide a PlacedRaster with a polygon (Hull without rounding). Return (area, nx, ny, x, y, separation, feature).
 
-    The reference is the touchable edge of the polygon behind which the overlapping pixels are least deep. The normal is
-    opposite to the normal of this edge, and the separation is minus this depth [px]. Other values as in
-    collide_mask_circle. depths_out (16,): scratch.
+    The reference is the edge of the polygon behind which the overlapping pixels are least deep. Only edges that no
+    neighbouring part covers are considered, if there are any. The normal is opposite to the normal of the reference
+    edge, and the separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,):
+    scratch.
     """
     count = hull.count
     for k in range(count):
@@ -600,7 +601,7 @@ def collide_mask_hull(raster, hull, depths_out):
 def bounds_overlap(batch, pair):
     """Return whether the bounding boxes of the solid pixels of two masks drawn on whole pixels (snap=True) overlap.
 
-    pair: index of the candidate; batch: a manifold.Batch.
+    pair: index of the candidate; batch: input of the pass, a manifold.Batch.
     """
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]

@@ -40,9 +40,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def arc_at(corners, count, k):
-    """Return (start, end) [rad] of the arc around corner k of a rounded hull: from the normal of one edge to the next.
+    """Return (start, end) [rad] of the arc around corner k of a rounded hull.
 
-    corners, count: corners [px] of the hull and their number. A hull of one corner has the full circle.
+    It leads from the normal of the edge before the corner to the normal of the edge after it. corners, count: corners
+    [px] of the hull and their number. A hull of one corner has the full circle.
     """
     if count == 1:
         return 0.0, math.tau
@@ -138,7 +139,7 @@ def least_area(raster):
 
 @subkernel
 def move_into_raster(raster, body, count, corners_inout):
-    """Transform the first `count` corners [px] from the world into the raster space of a mask.
+    """Transform the first `count` corners [px], in place, from the world into the raster space of a mask.
 
     The mask is at its exact pose (snap=False). raster: RASTER row of the mask; body: BODY row of the mask.
     """

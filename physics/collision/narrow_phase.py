@@ -71,7 +71,7 @@ def may_change(a, b):
 
 @inlined
 def is_wanted(which, a, b):
-    """Return whether the selection `which` accepts a pair of shapes, judged by their sensor flags alone.
+    """Return whether the selection `which` accepts a pair of shapes, considering only their sensor flags.
 
     which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The second condition of SOLIDS, may_change, is not
     tested.
@@ -96,7 +96,7 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
 
     The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: the pairs
     to test: ALL, NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS; batch:
-    a manifold.Batch.
+    input of the pass, a manifold.Batch.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -252,7 +252,7 @@ def remember_ground(batch, previous, memory_out):
 
     These contacts show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape
     ids like the candidates; memory_out (count, 2): for each pair, the first row in `previous` and the number of rows.
-    O(candidates + previous). batch: a manifold.Batch.
+    O(candidates + previous). batch: input of the pass, a manifold.Batch.
     """
     j = 0
     for i in range(batch.count):
@@ -318,10 +318,11 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Return the CONTACT rows of the candidate pairs, in the order of the candidates.
 
-        The result is a view that stays valid until the second next call. Masks are first rasterized at the poses of
-        their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in SHAPE; margin [px]: largest
-        gap of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: as in
-        hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground, or None.
+        The result is a view. It stays valid during the next call, and is overwritten by the call after that. Masks are
+        first rasterized at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row
+        numbers in SHAPE; margin [px]: largest gap of a contact; work: counters of work done; which: ALL, NO_SENSORS,
+        SOLIDS or SENSORS; bias [px]: as in hulls.collide_hulls; previous: CONTACT rows of the last step, used for
+        one-way ground, or None.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -351,7 +352,10 @@ class NarrowPhase:
         return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
-        """Return the CONTACT rows of the candidates, computed from AABBs alone, see collide_boxes. which: as there."""
+        """Return the CONTACT rows of the candidates, computed from AABBs alone, see collide_boxes.
+
+        which: ALL, NO_SENSORS, SOLIDS or SENSORS; work: counters of work done.
+        """
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
         return self.raw[:found]  # self.raw is a new, larger table if the old one was too small
 
@@ -360,7 +364,7 @@ class NarrowPhase:
 
         recycled: number of contacts reused from the last step without a test. The caller has written them to the first
         rows of self.raw, and they are part of the result. previous: CONTACT rows of the last step, or None; work:
-        counters of work done; batch: a manifold.Batch.
+        counters of work done; batch: input of the pass, a manifold.Batch.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -389,7 +393,7 @@ class NarrowPhase:
         The first rows are contacts reused from the last step. Return (number of contacts including the recycled ones,
         number of passes). The fallback counts as a pass if it added a contact. A single pass writes its contacts in the
         order of the candidates, so the caller need not sort them. counts: number of pairs of each kind. workspace:
-        scratch memory; batch: a manifold.Batch.
+        scratch memory; batch: input of the pass, a manifold.Batch.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -416,7 +420,7 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _without_hulls(self, workspace, shapes):
-        """Return the workspace with an empty cache of hulls, with room for this number of shapes."""
+        """Return the workspace with an empty cache of hulls. shapes: number of shapes for which the cache gets room."""
         if len(workspace.hull_rows) < min(shapes, HULLS):
             hulls, rows = empty_hulls(min(HULLS, 1 << (2 * shapes).bit_length()))
             workspace = workspace._replace(hulls=hulls, hull_rows=rows)
@@ -425,7 +429,10 @@ class NarrowPhase:
         return workspace
 
     def _remember(self, batch, previous):
-        """Return the workspace with the last step's contacts on one-way ground, from the CONTACT rows `previous`."""
+        """Return the workspace with the contacts of the last step on one-way ground, see remember_ground.
+
+        previous: CONTACT rows of the last step; batch: input of the pass, a manifold.Batch.
+        """
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
@@ -454,8 +461,8 @@ class NarrowPhase:
     def _drop_seams(self, batch, previous, found) -> int:
         """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining contacts.
 
-        found: number of contacts in self.raw before the call; previous: CONTACT rows of the last step; batch: a
-        manifold.Batch.
+        found: number of contacts in self.raw before the call; previous: CONTACT rows of the last step; batch: input of
+        the pass, a manifold.Batch.
         """
         bodies, rows = len(batch.bodies), found + len(previous)
         rows = max(rows, batch.count)

@@ -49,7 +49,7 @@ NONE = -1
 
 
 class BodyLists(NamedTuple):
-    """A linked list of row numbers for each body. The meaning of the rows is up to the caller."""
+    """A linked list of row numbers for each body. The caller decides which table the row numbers belong to."""
 
     heads: np.ndarray  # (bodies,) int64 first row number of each body, or NONE
     links: np.ndarray  # int64: the row number that follows each row number in its list, or NONE
@@ -57,7 +57,7 @@ class BodyLists(NamedTuple):
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return the side of a CONTACT row that is ground under a dynamic body: 0 for A, 1 for B, or NONE.
+    """Return which side of a CONTACT row is ground touched by a dynamic body: 0 for A, 1 for B, or NONE.
 
     NONE: both bodies are dynamic, or neither is, or one of the shapes is a mask. manifold: CONTACT row.
     """
@@ -85,7 +85,7 @@ def is_at_corner(shapes, manifold):
 def piece_at(batch, row, feature, corners_out):
     """Return the Hull of the piece of ground that a feature id names: a run of tiles, a link, or the whole shape.
 
-    row: row number in SHAPE; corners_out (16, 2) receives the corners [px]; batch: see manifold.Batch.
+    row: row number in SHAPE; corners_out (16, 2) receives the corners [px]; batch: input of the pass, a manifold.Batch.
     """
     geometry = batch.geometry
     s = batch.shapes[row]
@@ -113,7 +113,7 @@ def may_be_seam(batch, side, manifold, corners_out):
 
     The result is also True if a point of the contact does not touch yet. It is False for a contact over a wide face,
     and for a contact between a disc and a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row;
-    corners_out (16, 2): scratch; batch: a manifold.Batch.
+    corners_out (16, 2): scratch; batch: input of the pass, a manifold.Batch.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b
@@ -181,7 +181,7 @@ def distance_to_hull(hull, x, y):
 def is_behind_plane(batch, seam, support, workspace):
     """Return whether the ground of contact `seam` is nowhere in front of the contact plane of contact `support`.
 
-    Only ground near the body is tested, and it may rise above the plane by the tolerance batch.graze [px]. seam,
+    Only ground near the body is tested. It may be in front of the plane by the tolerance batch.graze [px]. seam,
     support: CONTACT rows of one dynamic body with two pieces of ground; workspace: scratch memory.
     """
     shapes = batch.shapes
@@ -265,11 +265,11 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 
 @subkernel
 def is_covered(batch, seam, first, others, workspace):
-    """Return whether each touching point of a contact is also on another piece of ground than the contact's own.
+    """Return whether each touching point of a contact is also on a second piece of ground.
 
     seam: CONTACT row of a dynamic body; first, others: linked list of this body's candidate pairs with ground. `first`
-    is the index of the first pair, others[pair] the index of the next one, or NONE. batch: a manifold.Batch; workspace:
-    scratch memory.
+    is the index of the first pair, others[pair] the index of the next one, or NONE. batch: input of the pass, a
+    manifold.Batch; workspace: scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -299,7 +299,7 @@ def is_covered(batch, seam, first, others, workspace):
 def list_ground(batch, lists_out):
     """Write for each dynamic body the linked list of its candidate pairs with ground (bodies that are not dynamic).
 
-    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: a manifold.Batch.
+    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: input of the pass, a manifold.Batch.
     """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
@@ -343,8 +343,8 @@ def is_recycled(batch, contact):
 def link_contact(batch, contact, place, lists_inout):
     """Add a contact to the linked list of its dynamic body, if the other body is ground.
 
-    contact: CONTACT row; place: the number to store for it in the list; lists_inout: BodyLists; batch: a
-    manifold.Batch.
+    contact: CONTACT row; place: the number to store for it in the list; lists_inout: BodyLists; batch: input of the
+    pass, a manifold.Batch.
     """
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
@@ -360,7 +360,7 @@ def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, mani
     manifolds_inout: CONTACT rows, of which the first `count` are in use; the remaining ones keep their order. previous:
     CONTACT rows of the last step. Rows of `previous` that are recycled (see is_recycled) also count as support of the
     body. contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body).
-    batch: a manifold.Batch; workspace: scratch memory.
+    batch: input of the pass, a manifold.Batch; workspace: scratch memory.
     """
     bodies = batch.bodies
     shapes = batch.shapes

@@ -91,10 +91,10 @@ def corners_between(edges, count):
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
     """Write the world corners [px] of the run of solid or one-way cells that contains the cell (row, column).
 
-    A run is adjacent equal cells in a row, treated as one rectangle. Return (number of corners, bits of touchable edges
-    and corners); for the bits see tile_at. The top edge is touchable if a cell of the run, within the columns `under`,
-    has no covering neighbour above it; likewise the bottom edge with neighbours below. grid: row number in GRID; x, y
-    [px]: the grid's origin; under: (first, last) column under the other shape. corners_out (16, 2): the result.
+    A run is adjacent equal cells in a row, treated as one rectangle. Return (number of corners, bits of the touchable
+    edges and corners), see tile_at. The top edge is touchable if a cell of the run, within the columns `under`, has no
+    covering neighbour above it; likewise the bottom edge with neighbours below. grid: row number in GRID; x, y [px]:
+    the grid's origin; under: (first, last) column under the other shape; corners_out (16, 2): the corners.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under

@@ -229,28 +229,32 @@ class Outline(NamedTuple):
 def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
     """Return the outline of each connected piece of solid[row, col] bool, smoothed into straight lines.
 
-    smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of these edges is
+    smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges. Each point of these edges is
     within smooth + 0.21 of the outline. With smooth = 0 the outline is the pixels' edges. Centres of solid pixels are
     inside, centres of clear pixels outside. The corner between two straight rows of pixel edges, both of 3 px or more,
     is kept. All corners of a rectangle are also kept.
 
-    Two diagonal pixels belong to one piece if the outline connects them. It does not at a kept corner, nor with smooth
-    < 0.25. Corners of the outline are at ends and middles of pixel edges. Their number is near the least possible.
-    Pieces are ordered by their topmost, then leftmost corner. O(corners * corners per line).
+    Diagonal pixels belong to one piece if smooth >= 0.25 and the corner between them is not a kept one. Corners of the
+    outline are at ends and middles of pixel edges. Their number is near the least possible. Pieces are ordered by their
+    topmost, then leftmost corner. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the connected pieces of solid[row, col] bool, in which diagonal pixels may be connected, see contours.
+    """Return the connected pieces of solid[row, col] bool. With smooth >= 0.25, diagonal pixels may be connected.
 
-    smooth [px]: see outline; from 0.25 px on, diagonal pixels are connected except where two runs of 3 px or more meet.
+    They are then connected unless two straight rows of pixel edges of 3 px or more meet between them. smooth [px]:
+    largest distance of the outline from the pixels' edges.
     """
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 
 def smoothed_piece(piece: Contour, smooth: float) -> Outline:
-    """Return the smoothed outline of one connected piece of pixels. smooth [px]: see outline."""
+    """Return the smoothed outline of one connected piece of pixels.
+
+    smooth [px]: largest distance of the outline from the pixels' edges.
+    """
     reach = min(smooth, LARGEST_REACH)
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 
@@ -282,10 +286,10 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return whether smoothing keeps each corner of a loop: (n,) bool.
+    """Return, for each corner of a loop, whether smoothing keeps the corner: (n,) bool.
 
-    Kept are corners between two straight rows of pixel edges of 3 px or more, and corners of rectangles. A corner at
-    which diagonal pixels are connected is never kept.
+    It keeps corners between two straight rows of pixel edges of 3 px or more, and corners of rectangles. It never keeps
+    a corner at which diagonal pixels are connected.
     """
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)

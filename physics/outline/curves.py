@@ -1,4 +1,4 @@
-"""Outline lines along the round curves of a drawing, with the directions of the curve."""
+"""Outline lines along the round curves of a drawing. The lines have nearly the directions of the curve."""
 
 import math
 from typing import NamedTuple
@@ -166,12 +166,12 @@ def turn_between(first, second):
 
 @subkernel
 def turn_beyond(k, step, count, closed, vertices):
-    """Return (turn [rad] from line k to the lines after it, whether such a line exists).
+    """Return (turn [rad] between line k and its neighbouring lines on one side, whether there is such a line).
 
-    step: 1 for the lines after line k, -1 for those before it. No line follows a fixed corner (anchor) or the end of an
-    open path. Lines shorter than SPIKE px are ignored. The result is the smallest turn from line k to each of the
-    following lines, up to the first one that is not much shorter than line k. count: number of lines of the path;
-    closed: whether the path is closed; vertices: VERTEX rows.
+    step: 1 for the lines after line k, -1 for those before it. The turn is the smallest one between line k and the next
+    few lines, up to the first that is not much shorter than line k. Lines shorter than SPIKE px are ignored. No line
+    follows beyond a fixed corner (anchor) or the end of an open path. count: number of lines of the path; closed:
+    whether the path is closed; vertices: VERTEX rows.
     """
     j = k
     least = 0.0
@@ -221,9 +221,10 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of each pixel edge of a path to workspace.middles: that of edge k to row FIT + k.
+    """Write the middle of each pixel edge of a path to workspace.middles: the middle of edge k to row FIT + k.
 
-    For a closed path, FIT edges before its start and after its end are also written. path: Path; workspace: Lines.
+    For a closed path, the last FIT edges are also written before the first, and the first FIT edges after the last.
+    path: Path; workspace: Lines.
     """
     for k in range(path.count):
         run = workspace.runs[k]
@@ -283,10 +284,10 @@ def fit_curve(curve, path, workspace):
 
 @subkernel
 def fit_of(at, curve, fitted):
-    """Return the point (x, y) [px] and the unit direction (x, y) of a fitted curve at a position along its path.
+    """Return (x, y, along_x, along_y): point [px] and unit direction of a fitted curve at a position along its path.
 
-    Both are interpolated between the two nearest pixel edges. The result is a tuple of four numbers. at: position from
-    the start of the path, in pixel edges; fitted: FITTED rows of the curve, see fit_curve.
+    Both are interpolated between the two nearest pixel edges. at: position from the start of the path, in pixel edges;
+    curve: Curve; fitted: FITTED rows of the curve, see fit_curve.
     """
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
@@ -303,9 +304,10 @@ def fit_of(at, curve, fitted):
 
 @subkernel
 def off_corner(x, y, before, run, most):
-    """Shorten an offset (x, y) [px] from the corner between two runs, so that it ends within `most` px of the runs.
+    """Shorten an offset (x, y) [px] from the corner between two runs, so that its end is within `most` px of the runs.
 
-    Return the new offset (x, y). before: RUN row that ends at the corner; run: RUN row that starts there.
+    Return the new offset (x, y). A run is a straight row of pixel edges. before: RUN row that ends at the corner; run:
+    RUN row that starts there.
     """
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
@@ -427,9 +429,9 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve that consists of `length` lines, starting at vertex `first`.
+    """Return the Curve that consists of `length` lines of a path, starting at vertex `first`.
 
-    Its field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: Path;
+    The Curve's field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: Path;
     workspace: Lines.
     """
     vertices = workspace.vertices

@@ -25,9 +25,10 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 class Walls:
-    """Sides of polygons that block lines of sight. Side k leads from corners[k] to following[k], both (n, 2) [px].
+    """Sides of polygons that obstruct lines between corners.
 
-    flat [px2]: a triangle counts as degenerate if twice its area is at most `flat`.
+    Side k leads from corners[k] to following[k], both (n, 2) [px]. flat [px2]: a triangle counts as degenerate if twice
+    its area is at most `flat`.
     """
 
     def __init__(self, corners: np.ndarray, following: np.ndarray, flat: float) -> None:
@@ -125,10 +126,11 @@ TRIED_LINES = 16  # number of lines tested in one array operation, shortest firs
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
-    Each hole, or group of touching holes, is joined to the outer loop or to a joined hole by the shortest line inside
-    the polygon (a bridge). A bridge becomes two sides of opposite directions. points (n, 2) [px], all distinct; loops:
-    arrays of indices of points: first the outer loop, clockwise on the screen, then holes, counter-clockwise. Loops may
-    touch at common points. flat [px2]: see Walls.
+    A bridge is a line inside the polygon that joins a hole, or a group of touching holes, to the outer loop or to a
+    hole already joined. The shortest one is used. It becomes two sides of opposite directions. points (n, 2) [px], all
+    distinct; loops: arrays of indices of points: first the outer loop, clockwise on the screen, then holes,
+    counter-clockwise. Loops may touch at common points. flat [px2]: a triangle is degenerate if twice its area is at
+    most this.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -163,7 +165,7 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join one group of touching holes to the group of the outer loop by the shortest unobstructed line.
+        """Join one group of touching holes to the outer loop or a joined hole by the shortest unobstructed line.
 
         The group with the leftmost hole is joined, because no other hole obstructs lines to its left.
         """
@@ -389,8 +391,8 @@ def _cross(a, b):
 class _End(NamedTuple):
     """A convex piece beside line (i, k) that may be part of the best decomposition.
 
-    first: first corner of the piece after i; last: its last corner before k; grown: the smaller piece that this one
-    extends, or None if the line (i, last) is a cut or a side.
+    first: first corner of the piece after i; last: last corner of the piece before k; grown: the smaller piece that
+    this one extends, or None if the line (i, last) is a cut or a side.
     """
 
     first: int
@@ -401,8 +403,8 @@ class _End(NamedTuple):
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
     """Divide a ring into the fewest convex pieces by cuts between its corners. Return the corner indices of each piece.
 
-    Each piece is clockwise on the screen and may have collinear corners. corners (n, 2) [px]: the ring; flat [px2]: see
-    Walls. O(n^3).
+    Each piece is clockwise on the screen and may have collinear corners. corners (n, 2) [px]: the ring; flat [px2]: a
+    triangle is degenerate if twice its area is at most this. O(n^3).
     """
     return _Search(Ring(corners, flat)).pieces()
 
@@ -483,8 +485,8 @@ class _Search:
 def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
     """Return rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
-    Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
-    sides never cross or touch as a result. rings: simple rings, the outer ring first, then holes.
+    Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners. No
+    removal makes sides cross or touch. rings: simple rings, the outer ring first, then holes.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -527,9 +529,9 @@ class _Work:
         return found
 
     def _depth(self, k):
-        """Return the error [px] of removing corner k: the largest distance of the removed corners from the new side.
+        """Return the error [px] of removing corner k: the largest distance of a removed corner from the new side.
 
-        Corners that were removed earlier and are replaced by the same side are included.
+        The removed corners are k and those removed earlier between the ends of the new side.
         """
         a, b = int(self.before[k]), int(self.after[k])
         (ax, ay), (bx, by) = self.points[a].tolist(), self.points[b].tolist()
@@ -626,7 +628,7 @@ def _tidy(corners, inner, flat):
     """Return a part's (corners, inner) without collinear corners, starting with its topmost, then leftmost corner.
 
     A collinear corner between an inner and an outer side is kept. corners (k, 2) [px]; inner (k,) bool: see
-    convex_parts; flat: see Walls.
+    convex_parts; flat [px2]: a triangle is degenerate if twice its area is at most this.
     """
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
@@ -640,7 +642,8 @@ def _tidy(corners, inner, flat):
 def _halved(points, rings, flat):
     """Split rings by cuts until each is convex or has at most LARGEST corners. Return the resulting rings.
 
-    points (n, 2) [px]; rings: arrays of indices of points; flat: see Walls.
+    points (n, 2) [px]; rings: arrays of indices of points; flat [px2]: a triangle is degenerate if twice its area is at
+    most this.
     """
     todo, found = list(rings), []
     while todo:
@@ -685,7 +688,8 @@ def _halving(sides):
 def _joined(points, pieces, flat):
     """Merge convex pieces across common sides if their union is convex with at most 16 corners. Return the pieces.
 
-    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points; flat: see Walls.
+    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points; flat [px2]: a
+    triangle is degenerate if twice its area is at most this.
     """
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]

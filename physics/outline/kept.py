@@ -33,7 +33,7 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Add a file made by `write` to the files in which `fitted` looks up outlines. It is read at the next lookup.
+    """Register a file made by `write`, in which `fitted` then looks up outlines. It is read at the next lookup.
 
     A missing or damaged file counts as empty.
     """
@@ -47,10 +47,10 @@ def forget() -> None:
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored convex parts for the outline of these pixels, or the result of fit() if none are stored.
+    """Return the convex parts stored for the outline of these pixels; if none are stored, the result of fit().
 
-    pixels[row, col] bool; smooth [px]: see contour.outline; name: name of the method by which fit() computes the parts,
-    which is part of the key.
+    pixels[row, col] bool; smooth [px]: largest distance of the outline from the pixels' edges; name: name of the method
+    by which fit() computes the parts. Name, pixels and smooth form the key of the stored parts.
     """
     key = _key(name, pixels, smooth)
     while _files:
@@ -71,7 +71,10 @@ def _key(name, pixels, smooth):
 
 @cache
 def code_stamp() -> bytes:
-    """Return a hash of the source files that compute outlines, so that parts stored by other code are not used."""
+    """Return a hash of the source files that compute outlines.
+
+    It is part of each key, so that parts stored by other code are not used.
+    """
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
     paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
     for path in sorted((home / "settings.py", home / "math2d.py", *paths)):

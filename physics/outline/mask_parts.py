@@ -105,8 +105,9 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
     """Return the convex parts of the outline of solid[row, col] bool; [] without solid pixels.
 
     A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
-    (few_parts), each starting with its topmost, then leftmost corner. A full rectangle is one part. smooth [px]: see
-    contour.outline; the union of the parts is as near to the pixels' edges as the result of contour.outline.
+    (few_parts), each starting with its topmost, then leftmost corner. A full rectangle is one part. smooth [px]:
+    largest distance of the outline from the pixels' edges; the union of the parts is as near to the pixels' edges as
+    the result of contour.outline.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
     ends = np.cumsum(parts.counts)[:-1]

@@ -21,7 +21,7 @@ Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a 
 
 
 class Stretch(NamedTuple):
-    """Section of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
+    """Section of a boundary: a line, or an arc that is clockwise on the screen. The figure's inside is on its right."""
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
@@ -177,8 +177,8 @@ def _arc_meets(side, other):
 def _on_circle(start, along, center, radius):
     """Return the two points where a line meets a circle.
 
-    If the line misses the circle, its point nearest to the centre is returned twice. start, along: a point on the
-    infinite line and the line's direction; center, radius: the circle.
+    If the line misses the circle, the point of the line nearest to the centre is returned twice. start, along: a point
+    on the infinite line and the line's direction; center, radius: the circle.
     """
     length = math.hypot(*along)
     along = along / length
@@ -189,11 +189,11 @@ def _on_circle(start, along, center, radius):
 
 
 def _covered(stretch, hull, earlier, near):
-    """Return whether another hull removes a stretch from the boundary of the union of hulls.
+    """Return whether another hull removes a stretch of one hull's boundary from the boundary of the union of hulls.
 
-    A stretch inside the other hull is removed. A stretch on the boundary of the other hull is removed if the two hulls
-    are on opposite sides of it. If both are on the same side, only the stretch of the first hull is kept. hull: the
-    other hull; earlier: whether it precedes the stretch's own hull; near [px]: a smaller distance counts as 0.
+    A stretch inside the other hull is removed. A stretch on the other hull's boundary is removed if the two hulls are
+    on opposite sides of it. If both are on the same side, it is kept only for the first of the two hulls. hull: the
+    other hull; earlier: whether the other hull comes first; near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -358,11 +358,11 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Measure the ends and middles of stretches. Return (largest distance [px] so far, stretches to divide further).
+    """Measure distances of stretches from another boundary. Return (largest distance [px] so far, stretches to divide).
 
-    The distances are from the boundary `other`, a _Figure. The second value lists (upper bound [px] of the distance of
-    the stretch's points, stretch) for each stretch that may contain a point farther away than the largest distance so
-    far. some: the stretches to measure; best [px]: largest distance found before.
+    The distance is measured at both ends and in the middle of each stretch. A stretch must be divided if it may contain
+    a point with a larger distance; it is listed as (upper bound [px] of its distance, stretch). some: the stretches to
+    measure; other: _Figure of the other boundary; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -428,7 +428,7 @@ def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
 def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
     """Return Cells with the pixels of several masks inside a window (left, top, right, bottom) [px].
 
-    masks: (solid[row, col] bool, left [px], top [px]) each, the position of the mask's top left corner.
+    masks: [(solid[row, col] bool, left, top)]; left, top [px]: position of the mask's top left corner.
     """
     lines = []
     for axis in (0, 1):

@@ -99,7 +99,8 @@ def is_joined(window, x, y):
     """Return whether paths connect the two diagonal solid pixels at corner (x, y).
 
     The result is False where two long runs (straight rows of pixel edges) meet, because such a corner is fixed. It is
-    also False on the border of the tile, because the neighbouring tile might find another path. window: see Window.
+    also False on the border of the tile, because the neighbouring tile might find another path. window: pixels of the
+    tile and settings.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -138,8 +139,8 @@ def backward(window, x, y, direction):
 def walked_back(window, x, y, direction, cracks):
     """Return (x, y, direction) of a path at the corner that is `cracks` pixel edges before corner (x, y).
 
-    The direction is that in which the path leaves the corner, both in the result and in the argument `direction`.
-    window: see Window.
+    direction: the direction in which the path leaves the corner; the returned direction is that at the returned corner.
+    window: pixels of the tile and settings.
     """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
@@ -153,7 +154,8 @@ def follow(window, x, y, direction, marks_inout):
     """Return the number of pixel edges for which a path stays in the tile, starting at corner (x, y).
 
     For a loop inside the tile this is the loop's length. direction: the direction in which the path leaves the corner;
-    marks_inout [row, col] uint8: set to 1 for each solid pixel whose upper edge is on the path; window: see Window.
+    marks_inout [row, col] uint8: set to 1 for each solid pixel whose upper edge is on the path; window: pixels of the
+    tile and settings.
     """
     first_x, first_y = x, y
     first = direction
@@ -174,8 +176,8 @@ def follow(window, x, y, direction, marks_inout):
 def record(window, x, y, direction, cracks, runs_out):
     """Write the runs (RUN rows) of a path of `cracks` pixel edges that starts at corner (x, y). Return their number.
 
-    A run is a straight row of pixel edges. direction: the direction in which the path leaves the corner; window: see
-    Window.
+    A run is a straight row of pixel edges. direction: the direction in which the path leaves the corner; window: pixels
+    of the tile and settings.
     """
     count = -1
     turned = True
@@ -240,9 +242,10 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 
 @subkernel
 def stays(runs, count, k, closed):
-    """Return whether smoothing keeps the corner at the start of run k: it is between long runs, or of a rectangle.
+    """Return whether smoothing keeps the corner at the start of run k (a straight row of pixel edges).
 
-    runs: RUN rows, of which the first `count` are the path; closed: whether the path is closed.
+    It keeps a corner between two long runs, and a corner of a rectangle. runs: RUN rows, of which the first `count` are
+    the path; closed: whether the path is closed.
     """
     if not closed and k == 0:
         return False
@@ -285,8 +288,8 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 def put_run(n, run, start, end, offset, places_inout):
     """Append up to three candidate corners (PLACE rows) inside a run. Return the new number of PLACE rows.
 
-    n: number of rows before; run: RUN row. Only candidates between `start` and `end` are added, positions along the
-    path in pixel edges. offset: number added to the positions, for the second turn around a loop.
+    n: number of rows before; run: RUN row; start, end: positions along the path, in pixel edges; only candidates
+    between them are added; offset: number added to the positions of the candidates, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -349,8 +352,8 @@ def faults_of_angles(begin, to):
 def try_lines(start, last, reach, prices, places_inout):
     """Lower the cost of each PLACE row that a line from row `start` reaches at a lower cost (O'Rourke 1981).
 
-    Lines to the rows after `start`, up to row `last`, are tried. reach [px]: largest distance of a line from the pixel
-    edges; prices: Prices; places_inout: PLACE rows.
+    The rows after `start`, up to row `last`, are tried as ends of the line. reach [px]: largest distance of a line from
+    the pixel edges; prices: weights of a line's errors; places_inout: PLACE rows.
     """
     begin = places_inout[start]
     x, y = begin.x, begin.y
@@ -394,8 +397,8 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
     """Find the lines of least total cost from PLACE row `first` to row `last`. Return the number of their ends.
 
     The number is 0 if no lines reach row `last`. chain_out: rows of the lines' ends, from `last` to `first`; reach
-    [px]: largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(rows * rows of a
-    line).
+    [px]: largest distance of a line from the pixel edges; prices: weights of a line's errors; places_inout: PLACE rows.
+    O(rows * rows of a line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -415,11 +418,11 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Find the lines of least total cost around a loop. Return the number of line ends; the first one is counted twice.
+    """Find the lines of least total cost around a loop. Return the number of line ends.
 
-    around: number of PLACE rows of one turn; anchor: row of a fixed corner, which no line may pass, or -1; reach [px]:
-    largest distance of a line from the pixel edges; places_inout: PLACE rows written by put_loop; chain_out: rows of
-    the line ends, from last to first.
+    The first line end is counted twice, because it is also the last. around: number of PLACE rows of one turn; anchor:
+    row of a fixed corner, which no line may pass, or -1; reach [px]: largest distance of a line from the pixel edges;
+    places_inout: PLACE rows written by put_loop; chain_out: rows of the line ends, from last to first.
     """
     begin = anchor
     if anchor < 0:

@@ -33,9 +33,9 @@ SIDE = np.dtype(
 def put_side(n, first, x, y, inner, sides_inout):
     """Append a side that starts at (x, y) [px] to a ring. Return the new number of SIDE rows.
 
-    If the last side starts at the same point, no side is added, and the last side's flag `inner` is replaced. n: number
-    of rows before; first: row of the ring's first side; inner: whether the polygon continues on the other side of the
-    side. sides_inout: SIDE rows.
+    If the last side starts at the same point, no side is added, and only the last side's flag `inner` is replaced. n:
+    number of rows before; first: row of the ring's first side; inner: whether the polygon continues beyond the side.
+    sides_inout: SIDE rows.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -92,8 +92,8 @@ def turn_at(sides, a, b, c):
 def is_reflex(sides, k):
     """Return whether corner k needs a cut, because its interior angle is more than half a turn.
 
-    An angle of exactly half a turn between an inner and an outer side also needs a cut. Thus each side of a part is
-    either wholly inner or wholly on the outline. sides: SIDE rows.
+    A cut is also needed at an angle of exactly half a turn between an inner side and a side on the outline. Thus each
+    side of a part is either wholly inner or wholly on the outline. sides: SIDE rows.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -238,8 +238,8 @@ def corners_of(sides, first):
 def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
-    Return the new number of SIDE rows, or -1 if a hole has no such line, because the rings are not a polygon. n: number
-    of rows before; sides_inout: SIDE rows.
+    Return the new number of SIDE rows, or -1 if a hole has no such line, which means that the rings are not a polygon.
+    n: number of rows before; sides_inout: SIDE rows.
     """
     while True:
         waiting = 0
@@ -263,11 +263,11 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """Return (corner of a hole, corner of another ring) of the shortest line between them that meets no side.
+    """Return (corner of a hole, corner of another ring), joined by the shortest line between them that meets no side.
 
-    The result is (-1, -1) if there is no such line. The other ring is not a hole, or is a hole that has already been
-    joined to such a ring (SIDE.apart is 0). Corners are rows in `sides`. n: number of sides; start: row of a side of
-    the hole.
+    The other ring is not a hole, or is a hole already joined to such a ring (SIDE.apart is 0). If there is no such
+    line, the result is (-1, -1). Corners are row numbers in `sides`. n: number of sides; start: row of a side of the
+    hole.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -300,9 +300,9 @@ def is_resolved(sides, a, b):
 def best_partner(sides, a, both):
     """Return the best corner for a cut from reflex corner a, or -1 if there is none.
 
-    The best is the visible corner whose cut resolves the most reflex corners: a, the other corner or both. Among equals
-    it is the nearest. both: True to accept only a cut that resolves both corners. Corners are rows in `sides`, SIDE
-    rows.
+    Among the visible corners, the best is the one whose cut resolves the most reflex corners: corner a, the other
+    corner or both. Among equally good ones it is the nearest. both: True to accept only a cut that resolves both
+    corners. Corners are row numbers in `sides`, SIDE rows.
     """
     best = -1
     best_score = 1 if both else -1
@@ -369,9 +369,9 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether a cut must stay, because without it the corner at the start of side k would be reflex.
+    """Return whether a cut is needed, because without it the corner at the start of side k would be reflex.
 
-    k: row of one of the two sides of the cut; m: row of the other; sides: SIDE rows.
+    k: row of one of the two sides of the cut; m: row of its other side; sides: SIDE rows.
     """
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
@@ -382,9 +382,9 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Return whether the cut that side k belongs to can be removed: the pieces beside it together form one valid part.
+    """Return whether the cut that side k belongs to can be removed, so that the two pieces beside it form one part.
 
-    A valid part is convex and has at most `most` corners. sides: SIDE rows.
+    The part must be convex and have at most `most` corners. sides: SIDE rows.
     """
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):

@@ -1,9 +1,9 @@
 """Approximation of round pieces of masks by a core polygon with few corners and a rounding radius.
 
-The core of a disc has one corner, that of a rounded box four. A body that rolls as a polygon loses speed at every
-corner; a rounded body does not. Candidate cores are made from the symmetry of the piece (discs, capsules) and by moving
-the sides of its outline inward (other cores). Each candidate is compared with the edges of the pixels. The core with
-the fewest corners within the tolerances of contour.outline is used.
+The core of a disc has one corner, that of a rounded box four. Rounded bodies roll without loss, while a body that rolls
+as a polygon loses speed at every corner. Candidate cores are made from the symmetry of the piece (discs, capsules), and
+by moving the sides of its outline inward (other cores). Each candidate is compared with the edges of the pixels. The
+core with the fewest corners within the tolerances of contour.outline is used.
 """
 
 import math
@@ -40,10 +40,10 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
     pixels outside. For a disc both distances may be 0.13 px larger, and centres of clear pixels may be up to 0.2 px
     inside.
 
-    The result is None if no core is accurate enough, if the piece has a sharp corner, or if a polygon without rounding
-    needs no more corners. Otherwise it is the core with the fewest corners. Of several such cores, one with sides on
-    the sides of the outline is preferred. cracks: loop of pixel edges around the piece; smooth [px]: see
-    contour.outline.
+    None is returned if no core is accurate enough, or if the piece has a sharp corner. It is also returned if a polygon
+    without rounding needs no more corners. Otherwise the core with the fewest corners is returned. Of several such
+    cores, one with sides on the sides of the outline is preferred. cracks: loop of pixel edges around the piece; smooth
+    [px]: largest distance of the outline from the pixels' edges.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -84,10 +84,10 @@ def _round_ones(outer, corners):
 def _several(outer, judge):
     """Return (core, radius) with the fewest corners, made by moving the outline's sides inward by a radius; or None.
 
-    First, cores rounded by exactly this radius are tried, so that their sides are on the outline's sides; the smallest
-    radius is tried first. Protruding sides would raise stacks, and round corners would let them tip early. Then other
-    radii and moved corners are tried, the largest radius first; they are used only if they save corners. outer (n, 2):
-    the outline; judge: _Judge.
+    First, each core is rounded by exactly this radius, so that its sides are on the outline's sides; the smallest
+    radius is tried first. Other radii and moved corners are tried later, the largest radius first, and used only if
+    they save corners: they may move sides outward, which raises stacks, or make corners rounder, which lets stacks tip
+    early. outer (n, 2): the outline; judge: _Judge.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -139,7 +139,7 @@ def _widest(hull):
 def _inset(hull, radius):
     """Return a convex polygon with its sides moved inward by a radius [px].
 
-    hull (n, 2) [px]: corners of the polygon. If the result is empty, it has fewer than 3 corners.
+    hull (n, 2) [px]: corners of the polygon. If no area remains, the result has fewer than 3 corners.
     """
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
@@ -223,8 +223,8 @@ class _Judge:
     def disc(self, core):
         """Return (centre, radius) of a disc around a given point that is within the tolerances, or None.
 
-        If no radius separates the centres of solid and clear pixels, it is the smallest disc with all centres of solid
-        pixels inside. core (1, 2) [px]: the given point.
+        If no radius separates the centres of solid and clear pixels, the smallest disc with all centres of solid pixels
+        is tried. core (1, 2) [px]: the given point.
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -300,10 +300,10 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the displacements (m, k, 2) of the k corners of a core that the search for a better core tries.
+    """Return the displacements (m, k, 2) of the k corners of a core that are tried in the search for a better core.
 
-    There are two for each corner: it alone moves to the right, or it alone moves down. A core of two corners is also
-    lengthened, rotated, and shifted along and across its line.
+    Each corner alone is moved to the right, and moved down. A core of two corners is also lengthened, rotated, and
+    shifted along and across its line.
     """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():

@@ -1,9 +1,10 @@
 """Flags for corners and sides of a tile's convex parts that are not on the mask's outline, because other parts adjoin.
 
-A side shared by two parts is inner: it is not on the outline. If the angles of all parts at a corner sum to half a turn
-or more, the outline has no convex corner there, and the corner is covered. Otherwise the corner belongs to one part and
-is covered for the others: the first part that has a side on the outline at this corner. Parts are ordered by tiles, row
-by row, then by their order within the tile. A corner at which the whole outline turns less than the part is blunt.
+A side shared by two parts is inner: it is not on the outline. A corner is covered if the outline has no convex corner
+there, which means that the angles of all parts at the corner sum to half a turn or more. Otherwise the corner belongs
+to one part, and is covered for the others: to the first part that has a side on the outline there. Parts are ordered by
+tiles, row by row, then by their order within the tile. A corner at which the whole outline turns less than the part is
+blunt.
 """
 
 import math
@@ -49,9 +50,9 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
     """Return (row, column) of each tile with a changed corner on its border, after one tile's parts have changed.
 
-    A corner is changed if it is in only one of the arrays `before` and `after` (m, 5): Survey.meetings of the changed
-    tile before and after. Tiles outside the mask are also returned. row, column: position of the changed tile; size
-    [px]: side of a tile.
+    A corner is changed if only one of the arrays `before` and `after` (m, 5) contains it. These are Survey.meetings of
+    the changed tile before and after. Tiles outside the mask are also returned. row, column: position of the changed
+    tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -198,9 +199,9 @@ def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
     Only the turns at seams (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus
-    the sum of the interior angles of all parts with this corner. It is COVERED if the sum is HALF_TURN or more, or if
-    an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see inner_bits;
-    place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
+    the sum of the interior angles of all parts with this corner. It is COVERED instead if the sum is HALF_TURN or more,
+    or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see
+    inner_bits; place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -241,7 +242,7 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners of a tile's parts, except collinear ones, in body space. Return the number of corners written.
+    """Write the corners of a tile's parts in body space, without collinear ones. Return the number written.
 
     parts: TileParts; angles (n,) [rad]: interior angles; origin [px]: origin of body space in the raster; corners_out
     (n, 2) [px]; counts_out (parts,): number of corners of each part.
@@ -282,9 +283,9 @@ def survey_tile(parts, box, number, origin, survey_out):
 def tell_inner(parts, known, around, place, turns_out, inner_out):
     """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
-    Collinear corners are not counted: adjacent collinear sides form one edge, which is inner if all these sides are
-    inner. A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part.
-    parts: TileParts; known, around: see inner_bits; place: (index of the tile, tiles per row); turns_out (n,): see
+    Collinear corners are ignored: adjacent collinear sides form one edge, which is inner if all these sides are inner.
+    A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part. parts:
+    TileParts; known, around: see inner_bits; place: (index of the tile, tiles per row); turns_out (n,): see
     cover_corners; inner_out (parts,) int64: the flags.
     """
     cover_corners(parts.corners, known, around, place, turns_out)

@@ -60,7 +60,7 @@ def to_border(window, x, y, direction):
     """Return the distance [px] from a corner (x, y) on the tile's border to the next border line in a direction.
 
     direction: 0 right, 1 down, 2 left, 3 up. The result is KNOWN + 1 if there is no border line in this direction.
-    window: see paths.Window.
+    window: pixels of the tile and settings, a paths.Window.
     """
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
@@ -202,7 +202,7 @@ def line_at(runs, count, at, x, y):
     """Return the line (x, y, slope, steep) that approximates a path at a corner (x, y), in the format of `stretch`.
 
     The line is fitted to the longest straight part of the path around the corner, or is the tangent of a parabola.
-    runs, count, at: see stretch.
+    runs: RUN rows, of which the first `count` are the path; at: number of pixel edges of the path before the corner.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -220,8 +220,9 @@ def line_at(runs, count, at, x, y):
 def meets(runs, count, at, x, y, level):
     """Return the signed distance [px] from a corner to the point where the path meets the corner's row or column.
 
-    The path is approximated by the line that line_at returns. runs, count, at: see stretch; x, y: the corner; level:
-    True for the row, False for the column.
+    The path is approximated by the line that line_at returns. runs: RUN rows, of which the first `count` are the path;
+    at: number of pixel edges of the path before the corner; x, y: the corner; level: True for the row, False for the
+    column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -233,10 +234,11 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return the distance [px] by which a border crossing is moved from corner (x, y) along run k of a path.
+    """Return the distance [px] by which the outline's crossing of the tile border is moved from a corner along a run.
 
-    runs: RUN rows, of which the first `count` are the path; after: True if run k starts at the corner, False if it ends
-    there; window: see paths.Window.
+    x, y: the corner of the path; k: index of the run (a straight row of pixel edges); after: True if run k starts at
+    the corner, False if it ends there; runs: RUN rows, of which the first `count` are the path; window: pixels of the
+    tile and settings, a paths.Window.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
@@ -287,7 +289,7 @@ def crossing(window, runs, count, at, after):
     The result is (position along the path, x offset, y offset from the path) [px]. runs: RUN rows, of which the first
     `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
     after: used only if the corner is also a corner of the tile: True to move the crossing along the run that starts at
-    the corner, False along the run that ends there; window: see paths.Window.
+    the corner, False along the run that ends there; window: pixels of the tile and settings, a paths.Window.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -363,7 +365,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
 def along_border(window, x, y):
     """Return the position [px] of border point (x, y) along the tile's border, clockwise from its top left corner.
 
-    window: see paths.Window.
+    window: the tile, a paths.Window.
     """
     size = float(window.high - window.low)
     if y == window.low:
@@ -396,7 +398,7 @@ def put_points(window, found, path, workspace):
     """Append the lines found along a path as a piece of the outline (PIECE row) with its points (POINT rows).
 
     Return whether a piece was appended: False if `found` is 0. found: number of line ends in workspace.lines.chain, see
-    paths.cheapest; path: Path; workspace: Paths; window: see paths.Window.
+    paths.cheapest; path: Path; workspace: Paths; window: pixels of the tile and settings, a paths.Window.
     """
     if found == 0:
         return False
@@ -418,8 +420,8 @@ def put_points(window, found, path, workspace):
 def path_within(window, count, cracks, begin, end):
     """Return the Path of `count` runs and `cracks` pixel edges in the tile.
 
-    begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop; window: see
-    paths.Window.
+    begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop; window: pixels of
+    the tile and settings, a paths.Window.
     """
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
@@ -431,7 +433,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
     pixel edges inside the tile. It is 0 if the path only passes the tile's corner, from one border to another. window:
-    see paths.Window; workspace: see Paths.
+    pixels of the tile and settings, a paths.Window; workspace: Paths, which receives the result.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -459,8 +461,8 @@ def add_open(window, x, y, direction, cracks, workspace):
 def add_closed(window, x, y, direction, cracks, workspace):
     """Append the outline along a loop of `cracks` pixel edges in the tile. Return whether lines were found.
 
-    x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner; window: see
-    paths.Window; workspace: see Paths.
+    x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner; window: pixels of
+    the tile and settings, a paths.Window; workspace: Paths, which receives the result.
     """
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
@@ -474,7 +476,8 @@ def add_closed(window, x, y, direction, cracks, workspace):
 def add_at_corner(window, x, y, workspace):
     """Append all pieces of the outline that enter the tile at border point (x, y).
 
-    Return whether the lines of each piece were found. window: see paths.Window; workspace: see Paths.
+    Return whether the lines of each piece were found. window: pixels of the tile and settings, a paths.Window;
+    workspace: Paths, which receives the result.
     """
     pixels = window.pixels
     done = True
@@ -533,7 +536,7 @@ def find_paths(window, workspace):
 
 @subkernel
 def tile_corner(window, number):
-    """Return (x, y) [px] of a corner of the tile. number: clockwise on the screen from 0, top left; modulo 4."""
+    """Return (x, y) [px] of a corner of the tile. number: 0 top left, then clockwise on the screen, modulo 4."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -581,7 +584,7 @@ def put_border(window, n, first, start, length, sides_inout):
 
     n: number of rows before; first: row of the ring's first side; start [px]: start of the section along the border;
     length [px]: length of the section. Corners at the ends of the section are not added. sides_inout: SIDE rows;
-    window: see paths.Window.
+    window: pixels of the tile and settings, a paths.Window.
     """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
@@ -594,10 +597,10 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring that contains open piece `number`: pieces of the outline, joined along the tile's border.
+    """Append a ring: open pieces of the outline, starting with piece `number`, and the tile's border between them.
 
-    Return the new number of SIDE rows. n: number of rows before; workspace: Paths; sides_inout: SIDE rows; window: see
-    paths.Window.
+    Return the new number of SIDE rows. n: number of rows before; workspace: Paths; sides_inout: SIDE rows; window:
+    pixels of the tile and settings, a paths.Window.
     """
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
@@ -613,9 +616,9 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece of the outline bounds a hole, which means it is counter-clockwise on the screen.
+    """Return whether a closed piece of the outline bounds a hole.
 
-    piece: PIECE row; points: POINT rows.
+    It does if its points are counter-clockwise on the screen. piece: PIECE row; points: POINT rows.
     """
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
@@ -630,7 +633,8 @@ def is_hole(piece, points):
 def put_regions(window, workspace, sides_out):
     """Write the rings around the solid part of a tile as SIDE rows. Return the number of rows.
 
-    Holes are separate rings. workspace: Paths, filled by find_paths; window: see paths.Window.
+    Holes are separate rings. workspace: Paths, filled by find_paths; window: pixels of the tile and settings, a
+    paths.Window.
     """
     n = 0
     holes = 0
@@ -683,10 +687,10 @@ def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) 
     """Return the convex parts of the outline in one tile of a mask, with at most 16 corners each.
 
     window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear outside the mask; at [px]:
-    top left corner of the tile in the mask; smooth [px]: see contour.outline. The parts of all tiles together are as
-    near to the pixels' edges as the result of contour.outline. An empty tile has no parts. A solid tile with only solid
-    pixels around it is one square of inner sides. Raises ValueError for a window that is not square, or whose tile is
-    not larger than HALO.
+    top left corner of the tile in the mask; smooth [px]: largest distance of the outline from the pixels' edges. The
+    parts of all tiles together are as near to the pixels' edges as the result of contour.outline. An empty tile has no
+    parts. A solid tile with only solid pixels around it is one square of inner sides. Raises ValueError for a window
+    that is not square, or whose tile is not larger than HALO.
     """
     height, width = window.shape
     size = width - 2 * HALO
@@ -723,9 +727,9 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline cuts off a corner of a clear tile, because the other three pixels at it are solid.
+    """Return whether the outline cuts off a corner of a clear tile: the other three pixels at this corner are solid.
 
-    near: the tile's pixels with a margin of 1 px.
+    near [row, col] bool: the tile's pixels with a margin of 1 px.
     """
     return (
         (near[:2, :2].sum() == 3)
