@@ -64,8 +64,8 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
     """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and the far ends of its neighbours.
 
     A link is one line of a chain. The order of the points is a, b, before, after: "before" is the far end of the
-    previous link, "after" that of the next link. links: LINK table; link: row number in it; x, y [px], cosine, sine:
-    pose of the chain's body.
+    previous link, "after" is the far end of the next link. links: LINK table; link: row number in it; x, y [px],
+    cosine, sine: pose of the chain's body.
     """
     k = links[link]
     for end in range(4):
@@ -245,8 +245,8 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
-    The neighbour at the end towards which (nx, ny) points is tested. It is better if the Hull's centre (x, y) is in
-    front of it, and each corner of the Hull is in front of it by more than `face`. face [px]: the Hull's separation
+    The neighbour at the end towards which (nx, ny) points is tested. This neighbour is better if the Hull's centre (x,
+    y) is in front of its line, and each corner of the Hull is so by more than `face`. face [px]: the Hull's separation
     from this link. points: this link's ends and the far ends of its neighbours [px], see link_at.
     """
     towards_end = is_towards_end(points, nx, ny)
@@ -326,10 +326,10 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    Where two links meet, only one of them reports a contact. If each of them expects the other to report it, the caller
-    tests the links a second time. is_second: True in this second pass; then the link reports all of its contacts. link:
-    LINK row; points: the link's ends and the far ends of its neighbours [px], see link_at; `points` and the Hull need
-    edge normals, see hulls.write_normals; margin, bias, manifold_out: as in hulls.collide_hulls.
+    At the common end of two links, only one link reports a contact. If each link expects the other link to report the
+    contact, the caller tests the links a second time. is_second: True in this second pass; then the link reports all of
+    its contacts. link: LINK row; points: the link's ends and the far ends of its neighbours [px], see link_at; `points`
+    and the Hull need edge normals, see hulls.write_normals; margin, bias, manifold_out: as in hulls.collide_hulls.
     """
     corners = hull.corners
     count = hull.count

@@ -145,10 +145,10 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap between two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    Hull B (b_inout) moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their positions at the returned
-    time. If the gap stops shrinking before it reaches the target, the time of least distance is returned. If the target
-    is not reached within `most` [s], or within MAX_ADVANCES iterations, NEVER is returned. Both Hulls need edge normals
-    (hulls.write_normals). O(corners²) an iteration.
+    Hull B (b_inout) moves at vx, vy [px/s] relative to Hull A. The corners of B are moved to their positions at the
+    returned time. If the gap stops shrinking before it reaches the target, the time of least distance is returned. If
+    the target is not reached within `most` [s], or within MAX_ADVANCES iterations, NEVER is returned. Both Hulls need
+    edge normals (hulls.write_normals). O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -239,7 +239,7 @@ def path_offsets(time, vx, vy, nx, ny):
 
 @subkernel
 def move_manifold_back(time, vx, vy, points_inout):
-    """Convert a manifold that was computed with B moved to its predicted contact, to B's present position.
+    """Transform a manifold from B's position at the predicted contact to B's present position.
 
     Return the distance [px] that B moves along the tangent (-ny, nx) until the contact. time [s]: time until the
     contact; vx, vy [px/s]: velocity of B until the contact; points_inout (11,): the manifold, format in
@@ -308,7 +308,7 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 
 @subkernel
 def move_piece_manifold_back(time, travel, sign, points_inout):
-    """Convert a manifold of ground and hull from the hull's predicted contact to the hull's present position.
+    """Transform a manifold of ground and a hull from the hull's predicted position to its present position.
 
     Return the distance [px] that the hull moves along the tangent until the contact. time [s]: time until the contact;
     travel: motion of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): the manifold, format in
@@ -328,7 +328,7 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
     """Return whether to reject a predicted contact of a disc with a corner, because the disc's path misses the piece.
 
     meeting: the predicted contact; graze [px]: a contact with at most this separation is never rejected; disc: (x, y,
-    radius) at the predicted contact; separation [px], feature: those of this contact; corners_out (16, 4): scratch.
+    radius) at the predicted contact; separation [px], feature: values of this contact; corners_out (16, 4): scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -495,8 +495,8 @@ def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls have a narrow contact face: their extents overlap by at most `most` [px] along it.
 
     far: whether the Hulls move far relative to each other in this step. If so, the face is also narrow if its two
-    contact points are at most `most` apart. This does not count for slow Hulls, because such a contact may support a
-    body, as the edge of a card does. manifold (11,): format in hulls.clip_edges.
+    contact points are at most `most` apart. For slow Hulls this second condition is not used, because a contact with
+    close points may support a body, as the edge of a card does. manifold (11,): format in hulls.clip_edges.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True

@@ -674,10 +674,10 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners each (SAT, clipping). Return the number of points.
 
     margin [px]: a larger separation gives no points. bias [px]: B has the reference face only if its greatest face
-    separation exceeds that of A by more than `bias`. So the reference does not alternate between equal faces. deepest
-    [px]: an overlap deeper than this gives no points if a neighbouring part covers an edge behind which the overlap is
-    less deep. Then manifold_out[0] is COVERED_OVERLAP. Both Hulls need edge normals, see write_normals. manifold_out
-    (11,): format in clip_edges. O(corners of A · corners of B).
+    separation exceeds A's greatest face separation by more than `bias`. So the reference does not alternate between
+    equal faces. deepest [px]: an overlap deeper than this gives no points if a neighbouring part covers an edge behind
+    which the overlap is less deep. Then manifold_out[0] is COVERED_OVERLAP. Both Hulls need edge normals, see
+    write_normals. manifold_out (11,): format in clip_edges. O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b

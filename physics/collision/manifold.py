@@ -295,7 +295,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def hull_in(batch, row, workspace):
-    """Return the Hull, in the world, of a shape with two or more corners. It is cached for all pairs of a pass.
+    """Return the Hull, in the world, of a shape with two or more corners. The Hull is cached for a pass.
 
     row: row number in SHAPE. The cache is direct-mapped: two shapes may have the same slot of workspace.hulls, and the
     second one overwrites the Hull of the first. batch: see Batch.

@@ -38,8 +38,8 @@ from physics.tables.step_state import MASK_TESTS
 def center_normal(a, b, dx, dy):
     """Return the unit vector from the centre of A's solid pixels to the centre of B's; (1, 0) if the centres coincide.
 
-    Each centre is that of the bounding box of the solid pixels. a, b: RASTER rows; dx, dy [px]: offset of B's top left
-    corner from A's.
+    Each centre is the centre of the bounding box of the solid pixels. a, b: RASTER rows; dx, dy [px]: offset of B's top
+    left corner from A's.
     """
     x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
     y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)
@@ -443,7 +443,7 @@ def border_pixels(raster, line, low, high, level):
 def collide_mask_line(raster, hull, depths_out):
     """Collide a PlacedRaster with a line segment (Hull of two corners).
 
-    Return (area, nx, ny, x, y, separation, feature). The line is solid from both sides. It touches the mask if it
+    Return (area, nx, ny, x, y, separation, feature). The line is solid from both sides. The line touches the mask if it
     crosses a solid pixel, or if it is exactly on the border between two solid pixels. On such a border the normal
     points away from the middle of the mask, and the separation is -1. Other values as in collide_mask_polygon.
     depths_out (16,): scratch.

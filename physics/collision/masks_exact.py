@@ -42,8 +42,8 @@ from physics.tables.step_state import MASK_TESTS
 def arc_at(corners, count, k):
     """Return (start, end) [rad] of the arc around corner k of a rounded hull.
 
-    It leads from the normal of the edge before the corner to the normal of the edge after it. corners, count: corners
-    [px] of the hull and their number. A hull of one corner has the full circle.
+    The arc leads from the normal of the edge before the corner to the normal of the edge after it. corners, count:
+    corners [px] of the hull and their number. A hull of one corner has the full circle.
     """
     if count == 1:
         return 0.0, math.tau
@@ -357,8 +357,8 @@ def share_no_area(geometry, a, b):
 def is_first_the_frame(geometry, a, b):
     """Return whether two masks A and B are tested in A's raster space rather than in B's. a, b: SHAPE rows.
 
-    The raster space of the mask with snap=False is used. If both masks have snap=False, the one with the greater area
-    is used.
+    The raster space of the mask with snap=False is used. If both masks have snap=False, the space of the mask with the
+    greater area is used.
     """
     if a.snap or b.snap:
         return not a.snap

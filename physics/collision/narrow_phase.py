@@ -318,11 +318,11 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Return the CONTACT rows of the candidate pairs, in the order of the candidates.
 
-        The result is a view. It stays valid during the next call, and is overwritten by the call after that. Masks are
-        first rasterized at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row
-        numbers in SHAPE; margin [px]: largest gap of a contact; work: counters of work done; which: ALL, NO_SENSORS,
-        SOLIDS or SENSORS; bias [px]: as in hulls.collide_hulls; previous: CONTACT rows of the last step, used for
-        one-way ground, or None.
+        The result is a view. The next call leaves it valid, the call after that overwrites it. Masks are first
+        rasterized at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in
+        SHAPE; margin [px]: largest gap of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or
+        SENSORS; bias [px]: as in hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground,
+        or None.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -475,8 +475,8 @@ class NarrowPhase:
     def room_for(self, count: int) -> np.ndarray:
         """Return self.raw, enlarged to at least `count` CONTACT rows.
 
-        The caller writes contacts that are reused from the last step without a test to the first rows. It then passes
-        their number to the next call of `complete` as `recycled`.
+        The caller writes contacts that are reused from the last step without a test to the first rows. The caller then
+        passes the number of these contacts to the next call of `complete` as `recycled`.
         """
         self._make_room(count)
         return self.raw

@@ -74,7 +74,7 @@ def ground_side(bodies, shapes, manifold):
 def is_at_corner(shapes, manifold):
     """Return whether a contact is between two corners, or between a corner and a disc.
 
-    The normal of such a contact is not that of a face. manifold: CONTACT row.
+    The normal of such a contact is not a face normal. manifold: CONTACT row.
     """
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
@@ -111,8 +111,8 @@ def piece_at(batch, row, feature, corners_out):
 def may_be_seam(batch, side, manifold, corners_out):
     """Return whether a contact with ground may be at a seam: it is near an end of its piece of ground (see piece_at).
 
-    The result is also True if a point of the contact does not touch yet. It is False for a contact over a wide face,
-    and for a contact between a disc and a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row;
+    The result is also True if a point of the contact does not touch yet. The result is False for a contact over a wide
+    face, and for a contact between a disc and a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row;
     corners_out (16, 2): scratch; batch: input of the pass, a manifold.Batch.
     """
     m = manifold
@@ -181,8 +181,8 @@ def distance_to_hull(hull, x, y):
 def is_behind_plane(batch, seam, support, workspace):
     """Return whether the ground of contact `seam` is nowhere in front of the contact plane of contact `support`.
 
-    Only ground near the body is tested. It may be in front of the plane by the tolerance batch.graze [px]. seam,
-    support: CONTACT rows of one dynamic body with two pieces of ground; workspace: scratch memory.
+    Only ground near the body is tested. This ground may be in front of the plane by the tolerance batch.graze [px].
+    seam, support: CONTACT rows of one dynamic body with two pieces of ground; workspace: scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)

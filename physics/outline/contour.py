@@ -235,8 +235,8 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
     is kept. All corners of a rectangle are also kept.
 
     Diagonal pixels belong to one piece if smooth >= 0.25 and the corner between them is not a kept one. Corners of the
-    outline are at ends and middles of pixel edges. Their number is near the least possible. Pieces are ordered by their
-    topmost, then leftmost corner. O(corners * corners per line).
+    outline are at ends and middles of pixel edges. The number of corners is near the least possible. Pieces are ordered
+    by their topmost, then leftmost corner. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
@@ -244,8 +244,8 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
     """Return the connected pieces of solid[row, col] bool. With smooth >= 0.25, diagonal pixels may be connected.
 
-    They are then connected unless two straight rows of pixel edges of 3 px or more meet between them. smooth [px]:
-    largest distance of the outline from the pixels' edges.
+    Diagonal pixels are then connected unless two straight rows of pixel edges of 3 px or more meet between them. smooth
+    [px]: largest distance of the outline from the pixels' edges.
     """
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
@@ -288,8 +288,8 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 def sharp(loop: Loop) -> np.ndarray:
     """Return, for each corner of a loop, whether smoothing keeps the corner: (n,) bool.
 
-    It keeps corners between two straight rows of pixel edges of 3 px or more, and corners of rectangles. It never keeps
-    a corner at which diagonal pixels are connected.
+    Smoothing keeps corners between two straight rows of pixel edges of 3 px or more, and corners of rectangles.
+    Smoothing never keeps a corner at which diagonal pixels are connected.
     """
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)

@@ -156,7 +156,7 @@ def read_vertices(found, path, workspace):
 def turn_between(first, second):
     """Return the angle [rad] from the line that starts at vertex `first` to the line that starts at vertex `second`.
 
-    It is > 0 for a turn that is clockwise on the screen. first, second: VERTEX rows.
+    The angle is > 0 for a turn that is clockwise on the screen. first, second: VERTEX rows.
     """
     return math.atan2(
         first.along_x * second.along_y - first.along_y * second.along_x,

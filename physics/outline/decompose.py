@@ -127,10 +127,10 @@ def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> lis
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
     A bridge is a line inside the polygon that joins a hole, or a group of touching holes, to the outer loop or to a
-    hole already joined. The shortest one is used. It becomes two sides of opposite directions. points (n, 2) [px], all
-    distinct; loops: arrays of indices of points: first the outer loop, clockwise on the screen, then holes,
-    counter-clockwise. Loops may touch at common points. flat [px2]: a triangle is degenerate if twice its area is at
-    most this.
+    hole already joined. The shortest such line is used. The bridge becomes two sides of opposite directions. points (n,
+    2) [px], all distinct; loops: arrays of indices of points: first the outer loop, clockwise on the screen, then
+    holes, counter-clockwise. Loops may touch at common points. flat [px2]: a triangle is degenerate if twice its area
+    is at most this.
     """
     if len(loops) == 1:
         return [loops[0]]

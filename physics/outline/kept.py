@@ -1,7 +1,8 @@
 """Files of precomputed mask outlines. The key of an outline is a hash of the pixels, the settings and the code.
 
-A game ships such a file with its art and registers it with `use`. Then a start without compiled kernels need not
-compute the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key changes.
+A game ships such a file with its art and registers it with `use`. A game that starts without compiled kernels then need
+not compute the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key
+changes.
 """
 
 import hashlib
@@ -33,7 +34,7 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Register a file made by `write`, in which `fitted` then looks up outlines. It is read at the next lookup.
+    """Register a file made by `write`, in which `fitted` then looks up outlines. The file is read at the next lookup.
 
     A missing or damaged file counts as empty.
     """
@@ -73,7 +74,7 @@ def _key(name, pixels, smooth):
 def code_stamp() -> bytes:
     """Return a hash of the source files that compute outlines.
 
-    It is part of each key, so that parts stored by other code are not used.
+    The hash is part of each key, so that parts stored by other code are not used.
     """
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
     paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]

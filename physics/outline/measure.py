@@ -300,7 +300,7 @@ ROWS = 1 << 20  # distances computed in one array operation: bounds the memory
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
     """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point of one from the other one.
 
-    The result is at most 1e-6 px too small. It is 0 if both boundaries are empty, inf if only one is empty.
+    The result is at most 1e-6 px too small. The result is 0 if both boundaries are empty, inf if only one is empty.
     """
     if not a or not b:
         return 0.0 if not a and not b else math.inf

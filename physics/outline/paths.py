@@ -98,9 +98,9 @@ def length_from(pixels, x, y, direction):
 def is_joined(window, x, y):
     """Return whether paths connect the two diagonal solid pixels at corner (x, y).
 
-    The result is False where two long runs (straight rows of pixel edges) meet, because such a corner is fixed. It is
-    also False on the border of the tile, because the neighbouring tile might find another path. window: pixels of the
-    tile and settings.
+    The result is False where two long runs (straight rows of pixel edges) meet, because such a corner is fixed. The
+    result is also False on the border of the tile, because the neighbouring tile might find another path. window:
+    pixels of the tile and settings.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -244,8 +244,8 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 def stays(runs, count, k, closed):
     """Return whether smoothing keeps the corner at the start of run k (a straight row of pixel edges).
 
-    It keeps a corner between two long runs, and a corner of a rectangle. runs: RUN rows, of which the first `count` are
-    the path; closed: whether the path is closed.
+    Smoothing keeps a corner between two long runs, and a corner of a rectangle. runs: RUN rows, of which the first
+    `count` are the path; closed: whether the path is closed.
     """
     if not closed and k == 0:
         return False

@@ -81,7 +81,8 @@ def close_ring(n, first, sides_inout):
 def turn_at(sides, a, b, c):
     """Return the cross product [px2] of the vectors from corner a to b and from b to c.
 
-    It is > 0 for a turn that is clockwise on the screen (convex). a, b, c: rows of the corners in `sides`, SIDE rows.
+    The product is > 0 for a turn that is clockwise on the screen (convex). a, b, c: rows of the corners in `sides`,
+    SIDE rows.
     """
     p, q = sides[a], sides[b]
     r = sides[c]

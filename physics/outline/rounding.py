@@ -1,9 +1,9 @@
 """Approximation of round pieces of masks by a core polygon with few corners and a rounding radius.
 
-The core of a disc has one corner, that of a rounded box four. Rounded bodies roll without loss, while a body that rolls
-as a polygon loses speed at every corner. Candidate cores are made from the symmetry of the piece (discs, capsules), and
-by moving the sides of its outline inward (other cores). Each candidate is compared with the edges of the pixels. The
-core with the fewest corners within the tolerances of contour.outline is used.
+The core of a disc has one corner, the core of a rounded box has four. Rounded bodies roll without loss, while a body
+that rolls as a polygon loses speed at every corner. Candidate cores are made from the symmetry of the piece (discs,
+capsules), and by moving the sides of its outline inward (other cores). Each candidate is compared with the edges of the
+pixels. The core with the fewest corners within the tolerances of contour.outline is used.
 """
 
 import math
@@ -35,15 +35,15 @@ Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
     """Return (convex corners, radius) of a rounded core that replaces one piece of pixels without holes, or None.
 
-    The core has 1 to 16 corners: 1 is a disc, 2 are a capsule. Its boundary is within `smooth` of the pixel edges, and
-    the pixel edges are within smooth + 0.21 of the boundary. Centres of solid pixels are inside, centres of clear
-    pixels outside. For a disc both distances may be 0.13 px larger, and centres of clear pixels may be up to 0.2 px
-    inside.
+    The core has 1 to 16 corners: 1 is a disc, 2 are a capsule. The boundary of the rounded core is within `smooth` of
+    the pixel edges, and the pixel edges are within smooth + 0.21 of the boundary. Centres of solid pixels are inside,
+    centres of clear pixels outside. For a disc both distances may be 0.13 px larger, and centres of clear pixels may be
+    up to 0.2 px inside.
 
-    None is returned if no core is accurate enough, or if the piece has a sharp corner. It is also returned if a polygon
-    without rounding needs no more corners. Otherwise the core with the fewest corners is returned. Of several such
-    cores, one with sides on the sides of the outline is preferred. cracks: loop of pixel edges around the piece; smooth
-    [px]: largest distance of the outline from the pixels' edges.
+    None is returned if no core is accurate enough, or if the piece has a sharp corner. None is also returned if a
+    polygon without rounding needs no more corners. Otherwise the core with the fewest corners is returned. Of several
+    such cores, one with sides on the sides of the outline is preferred. cracks: loop of pixel edges around the piece;
+    smooth [px]: largest distance of the outline from the pixels' edges.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -188,7 +188,8 @@ class _Judge:
     def fitted(self, core):
         """Return (core, radius) within the tolerances, or None if none is found.
 
-        The radius is computed, and the corners of the core are moved if necessary.
+        The radius is computed, and the corners are moved if necessary. core (k, 2) [px]: corners with which the search
+        starts.
         """
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
@@ -246,7 +247,7 @@ class _Judge:
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return (core, radius) with the radius that makes the core's area most nearly that of the pixels, or None.
+        """Return (core, radius) with the radius at which the core's area is nearest to the pixels' area, or None.
 
         The radius is limited by the tolerances; None means that no radius is within them. core (k, 2) [px].
         """

@@ -2,9 +2,8 @@
 
 A side shared by two parts is inner: it is not on the outline. A corner is covered if the outline has no convex corner
 there, which means that the angles of all parts at the corner sum to half a turn or more. Otherwise the corner belongs
-to one part, and is covered for the others: to the first part that has a side on the outline there. Parts are ordered by
-tiles, row by row, then by their order within the tile. A corner at which the whole outline turns less than the part is
-blunt.
+to the first part that has a side on the outline there, and is covered for all other parts. Parts are ordered by tiles,
+row by row, then by their order within the tile. A corner at which the whole outline turns less than the part is blunt.
 """
 
 import math
@@ -50,9 +49,9 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
     """Return (row, column) of each tile with a changed corner on its border, after one tile's parts have changed.
 
-    A corner is changed if only one of the arrays `before` and `after` (m, 5) contains it. These are Survey.meetings of
-    the changed tile before and after. Tiles outside the mask are also returned. row, column: position of the changed
-    tile; size [px]: side of a tile.
+    A corner is changed if only one of the arrays `before` and `after` (m, 5) contains it. The arrays are
+    Survey.meetings of the changed tile before and after. Tiles outside the mask are also returned. row, column:
+    position of the changed tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -199,8 +198,8 @@ def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
     Only the turns at seams (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus
-    the sum of the interior angles of all parts with this corner. It is COVERED instead if the sum is HALF_TURN or more,
-    or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see
+    the sum of the interior angles of all parts with this corner. The turn is COVERED instead if the sum is HALF_TURN or
+    more, or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see
     inner_bits; place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams

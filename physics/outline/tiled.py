@@ -265,8 +265,9 @@ def room_in(window, runs, count, k, x, y, after):
 def aside(window, runs, count, k, distance):
     """Return the distance [px] from a point of run k to the line that approximates the path, perpendicular to the run.
 
-    It is positive in the direction of run k - 1; its absolute value is at most window.reach. runs: RUN rows, of which
-    the first `count` are the path; distance: position of the point from the start of the run, in pixel edges.
+    The result is positive in the direction of run k - 1, and its absolute value is at most window.reach. runs: RUN
+    rows, of which the first `count` are the path; distance: position of the point from the start of the run, in pixel
+    edges.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -432,8 +433,8 @@ def add_open(window, x, y, direction, cracks, workspace):
     """Append the outline along a path from border to border of the tile. Return whether the lines along it were found.
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
-    pixel edges inside the tile. It is 0 if the path only passes the tile's corner, from one border to another. window:
-    pixels of the tile and settings, a paths.Window; workspace: Paths, which receives the result.
+    pixel edges inside the tile. cracks is 0 if the path only passes the tile's corner, from one border to another.
+    window: pixels of the tile and settings, a paths.Window; workspace: Paths, which receives the result.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -618,7 +619,7 @@ def put_open(window, n, number, workspace, sides_inout):
 def is_hole(piece, points):
     """Return whether a closed piece of the outline bounds a hole.
 
-    It does if its points are counter-clockwise on the screen. piece: PIECE row; points: POINT rows.
+    The points of a hole are counter-clockwise on the screen. piece: PIECE row; points: POINT rows.
     """
     doubled = 0.0
     before = points[piece.first + piece.count - 1]

@@ -51,7 +51,8 @@ def lowest_bit(value):
 def sum_of_places(value):
     """Return the sum of the indices of all set bits of a word (Knuth 4A, 7.1.3).
 
-    For each binary digit of an index, the set bits whose index contains this digit are counted.
+    For each binary digit of the indices, the set bits whose index has this digit are counted, and weighted by its
+    value.
     """
     return (
         popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
@@ -155,10 +156,10 @@ def moved(value, up, down, kept):
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
     """Return (row, shared pixels) of the first row in which two rasters overlap; (rows, 0) if there is none.
 
-    Both rasters are one word wide. `row` is counted from the first compared row; the pixels are a word. word_a, word_b:
-    index in `words` of each raster's word in the first compared row; shift_a, shift_b: number of columns to skip on the
-    left of each raster; rows: number of compared rows. O(rows). The right end needs no mask, because words are clear
-    beyond their solid bounds.
+    Both rasters are one word wide, so the shared pixels are a word. The returned row is counted from the first compared
+    row. word_a, word_b: index in `words` of each raster's word in the first compared row; shift_a, shift_b: number of
+    columns to skip on the left of each raster; rows: number of compared rows. The right end needs no mask, because
+    words are clear beyond their solid bounds. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -179,7 +180,7 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """Return the pixels that are solid or have a solid pixel among their 8 neighbours, as packed words.
+    """Return, as packed words, the pixels that are solid or have a solid pixel among their 8 neighbours.
 
     The raster of the result is larger than solid[row, col] by one pixel on each side.
     """
@@ -366,7 +367,8 @@ class Turned:
 
     solid: pixels of the rotated mask, bool [row, col].
     origin: origin of body space (x, y) [px], from the top left corner of `solid`.
-    source_x, source_y: column and row of each pixel's source in the unrotated mask, int16 [row, col]; -1 where clear.
+    source_x, source_y: column and row in the unrotated mask from which each pixel was sampled, int16 [row, col];
+        -1 where clear.
     """
 
     solid: np.ndarray
@@ -434,10 +436,10 @@ def _any_turn(solid, origin, angle):
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
     """Sample a mask at the pixels of its rotated raster. Return (solid, samples, source), arrays over these pixels.
 
-    solid: whether the source is solid at the pixel's centre; samples: number of the pixel's sample points at which the
-    source is solid; source: flat index of the source pixel under the first solid sample, -1 for none. padded: source
-    pixels with a clear border; mixed: result of _mixed; base_x, base_y [px]: first corner of each rotated pixel in
-    `padded`.
+    solid: whether the mask is solid at the pixel's centre; samples: number of the pixel's sample points at which the
+    mask is solid; source: flat index in `padded` of the pixel under the first solid sample point, -1 for none. padded:
+    pixels of the unrotated mask with a clear border; mixed: result of _mixed; base_x, base_y [px]: first corner of each
+    rotated pixel in `padded`; cosine, sine: cosine and sine of the rotation.
     """
     rows, columns = padded.shape
 
@@ -474,9 +476,9 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """Return the solid pixels of a rotated mask, [row, col] bool. Their number is `wanted` if possible.
+    """Return the solid pixels of a rotated mask, [row, col] bool. If possible, `wanted` pixels are solid.
 
-    At first these are the pixels `centered`, whose centres are solid. If they are too few, the most covered other
+    The pixels whose centres are solid (`centered`) are solid at first. If these are too few, the most covered other
     pixels are added. If they are too many, the least covered pixels are removed, except pixels whose removal would
     disconnect other pixels. coverage [row, col]: number of solid samples of each pixel.
     """
@@ -507,7 +509,7 @@ def _in_order(some, key):
 def _is_simple(around):
     """Return whether clearing the middle of 3 x 3 pixels leaves its solid neighbours connected (simple point).
 
-    around (3, 3) bool: the pixels. An isolated middle, and one with four solid side neighbours, is not simple.
+    around (3, 3) bool: the pixels. The result is False if no neighbour is solid, or if all four side neighbours are.
     """
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):

@@ -59,10 +59,10 @@ def slack_of(a, b):
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the distance [px] of the centres of two unit squares along an axis at which they just touch.
+    """Return the largest distance [px] along an axis between the centres of two unit squares that touch.
 
-    The axes are those of both squares. The squares share area if their centres are nearer than this along every axis.
-    cosine, sine: cosine and sine of the angle between the squares.
+    The axes are the directions of the sides of both squares. The squares share area if their centres are nearer than
+    this along every axis. cosine, sine: cosine and sine of the angle between the squares.
     """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
@@ -186,11 +186,11 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v, start_row):
-    """Find the first pixels of masks A and B that overlap. Return (found, column and row in A, column and row in B).
+    """Find the first pixels of masks A and B that overlap.
 
-    The result has five numbers. The search ends at the first overlap. pair: SquaresPair; u, v [px]: top left corner of
-    B's raster in A's raster, used instead of pair.u, pair.v; start_row: row of B at which the search starts; the rows
-    above it are searched last. O(pixels of B within A's bounds) at worst.
+    Return (found, column in A, row in A, column in B, row in B). The search ends at the first overlap. pair:
+    SquaresPair; u, v [px]: top left corner of B's raster in A's raster, used instead of pair.u, pair.v; start_row: row
+    of B at which the search starts; the rows above it are searched last. O(pixels of B within A's bounds) at worst.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -223,9 +223,9 @@ def first_squares(pair, u, v, start_row):
 def squares_way_out(pair, nx, ny, most):
     """Return the distance [px] that mask B must move along the unit vector (nx, ny) to end its overlap with mask A.
 
-    A result above `most` [px] means that no move up to `most` is enough. pair: SquaresPair; nx, ny: in A's raster. A
-    pair of squares overlaps during one interval of the move. Each overlapping pair that is found advances the move to
-    the end of its interval, so no pair is found twice. O(first_squares · pairs found).
+    A result above `most` [px] means that no move up to `most` is enough. pair: SquaresPair; nx, ny: direction in A's
+    raster. Two pixel squares overlap during one interval of the move. Whenever two overlapping squares are found, the
+    move advances to the end of their interval, so no two squares are found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -465,7 +465,7 @@ def sum_squares(pair):
 
 
 class Shares(NamedTuple):
-    """Sums over the outline of mask B: area shared with mask A, its moments, and its changes when B moves."""
+    """Sums over the outline of mask B: area shared with mask A, moments of this area, and its change when B moves."""
 
     area: float  # [px2]
     moment_x: float  # [px3] area times the centroid in A's raster
@@ -476,10 +476,9 @@ class Shares(NamedTuple):
 
 @subkernel
 def solid_before(words, row, stride, column):
-    """Return (number, sum of x [px]) of the solid pixels of a row in the columns before `column`.
+    """Return (number, sum of the centres' x [px]) of the solid pixels of a row in the columns before `column`.
 
-    x is that of the pixel's centre. words: pixels of all rasters; row: index of the row's first word; stride: number of
-    words per row.
+    words: pixels of all rasters; row: index of the row's first word; stride: number of words per row.
     """
     count = 0.0
     centers = 0.0
@@ -493,7 +492,7 @@ def solid_before(words, row, stride, column):
 
 @subkernel
 def length_at(words, a, column, row):
-    """Return 1.0 if the pixel of mask A in a column and row is solid, else 0.0. Outside the raster it is 0.0.
+    """Return 1.0 if the pixel of mask A at (column, row) is solid, else 0.0. Pixels outside the raster are not solid.
 
     words: pixels of all rasters; a: RASTER row of A.
     """
@@ -504,10 +503,10 @@ def length_at(words, a, column, row):
 
 @inlined
 def share_in_row(words, a, row, px, py, qx, qy):
-    """Return the contribution of a line of B's outline to the Shares, where the line is within one pixel row of mask A.
+    """Return the contribution of a line of mask B's outline to the Shares of masks A and B.
 
-    words: pixels of all rasters; a: RASTER row of A; row: index of the pixel row; px, py, qx, qy [px]: start and end of
-    the line in A's raster, py <= qy.
+    The line is within one pixel row of A. words: pixels of all rasters; a: RASTER row of A; row: index of the pixel
+    row; px, py, qx, qy [px]: start and end of the line in A's raster, py <= qy.
     """
     area, moment_x, moment_y = 0.0, 0.0, 0.0
     loss_x, loss_y = 0.0, 0.0
@@ -550,7 +549,7 @@ def share_in_row(words, a, row, px, py, qx, qy):
 
 @subkernel
 def with_share(shares, part):
-    """Return the sum of two Shares."""
+    """Return the sum of two Shares, field by field."""
     return Shares(
         shares.area + part.area,
         shares.moment_x + part.moment_x,
@@ -562,7 +561,7 @@ def with_share(shares, part):
 
 @subkernel
 def edge_share(words, a, px, py, qx, qy):
-    """Return the contribution of a line of B's outline to the Shares of masks A and B.
+    """Return the contribution of a line of mask B's outline to the Shares of masks A and B.
 
     words: pixels of all rasters; a: RASTER row of A; px, py, qx, qy [px]: start and end of the line in A's raster.
     """

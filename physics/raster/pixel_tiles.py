@@ -151,11 +151,11 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 
 @subkernel
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
-    """Join each two touching nodes of two adjacent tiles in a union-find forest.
+    """Join the trees of each two nodes of two adjacent tiles that touch (union-find).
 
-    nodes: NODE rows; starts (tiles + 1,): index of the first node of each tile; tile, other: numbers of the two tiles;
-    across, down: offset from `tile` to `other`, in columns and rows of tiles; parents_inout (nodes,): parent of each
-    node.
+    nodes: NODE rows, connected components of the tiles' pixels; starts (tiles + 1,): index of the first node of each
+    tile; tile, other: numbers of the two tiles; across, down: offset from `tile` to `other`, in columns and rows of
+    tiles; parents_inout (nodes,): parent of each node.
     """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
@@ -175,11 +175,11 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 @kernel
 def label_pieces(nodes, starts, columns, labels_out):
-    """Write the number of each node's piece. Return the number of pieces. O(nodes).
+    """Write the number of the piece (8-connected component of all pixels) that contains each node. O(nodes).
 
-    Pieces are numbered from 0 in the order of their first nodes. nodes: NODE rows in the order of tiles; starts (tiles
-    + 1,): index of the first node of each tile; columns: number of tiles per row; labels_out (nodes,): the piece
-    numbers.
+    Return the number of pieces. Pieces are numbered from 0 in the order of their first nodes. nodes: NODE rows,
+    connected components of one tile each, in the order of tiles; starts (tiles + 1,): index of the first node of each
+    tile; columns: number of tiles per row; labels_out (nodes,): the piece numbers.
     """
     for k in range(len(nodes)):
         labels_out[k] = k
@@ -214,8 +214,9 @@ def label_pieces(nodes, starts, columns, labels_out):
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
     """Add up the pixels of each piece, and find its first pixel in reading order. O(nodes).
 
-    nodes: NODE rows; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,): the
-    number of pixels of each piece is added; firsts_inout (pieces,): lowered to row * width + column of the first pixel.
+    A piece consists of nodes, connected components of one tile each. nodes: NODE rows; labels (nodes,): piece of each
+    node; width [px]: width of the raster; counts_inout (pieces,): increased by the number of pixels; firsts_inout
+    (pieces,): lowered to row * width + column of the first pixel.
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
@@ -228,7 +229,7 @@ def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
 
 @kernel
 def add_up(nodes, totals_out):
-    """Write eight totals over the nodes of a raster to totals_out (8,). O(nodes).
+    """Write eight totals over all pixels of a raster, given by its nodes, to totals_out (8,). O(nodes).
 
     The totals are: number of pixels, sum of columns, sum of rows, sum of column² + row², and the bounds left, top,
     right, bottom; right and bottom are exclusive. Without nodes all are 0. nodes: NODE rows.
@@ -352,7 +353,7 @@ class PixelTiles:
         return Pieces(labels, counts, firsts)
 
     def words_of(self, node: int) -> np.ndarray:
-        """Return the pixels of one node as words of its tile, (64,) uint64."""
+        """Return the pixels of one node (connected component of a tile) as words of its tile, (64,) uint64."""
         runs, parents, _ = _room()
         picked, of = np.empty(TILE, np.uint64), self.nodes[node]
         pick_node(self.words[int(of["tile"])], int(of["first"]), runs, parents, picked)
@@ -369,8 +370,8 @@ class PixelTiles:
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
         """Return the pixels of the given nodes as (solid[row, column] bool, left, top).
 
-        solid covers the bounding box of these pixels; left, top [px]: position of this box in the raster. nodes:
-        indices of nodes. The raster itself is not changed.
+        A node is a connected component of one tile. solid covers the bounding box of the pixels; left, top [px]:
+        position of this box in the raster. nodes: indices of nodes. The raster itself is not changed.
         """
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
@@ -425,7 +426,7 @@ class PixelTiles:
 
     @property
     def packed(self) -> np.ndarray:
-        """Pixels as bits, (rows * 64, columns) uint64, where `rows` and `columns` count tiles.
+        """Pixels as bits, (64 · tile rows, tile columns) uint64.
 
         Bit b of word k in a row is the pixel in column 64k + b. O(words).
         """
@@ -490,10 +491,10 @@ class Cut(NamedTuple):
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
     """Remove the pixels that a tool covers, and the pieces that this separates. Return a Cut.
 
-    one_piece: True if only the largest of all pieces stays, False if the largest part of each earlier piece stays. All
-    other pieces are separated. Of equally large ones, the one with the first pixel in reading order stays. The Cut
-    lists the separated pieces, except those of fewer than `crumb` pixels. tool: see Tool; box [px]: bounds of the tool
-    in the raster. O(tiles + runs of changed tiles).
+    one_piece: True if only the largest of all remaining pieces stays; False if of each piece before the cut its largest
+    remaining part stays. All others are separated. Of equally large ones, the one with the first pixel in reading order
+    stays. The Cut lists the separated pieces, except those of fewer than `crumb` pixels. tool: function that finds the
+    pixels to remove in a tile, see Tool; box [px]: bounds of the tool in the raster. O(tiles + runs of changed tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -524,7 +525,7 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 def _taken(tiles, tool, box):
     """Return ({tile number: words of the remaining pixels} for each changed tile, number of removed pixels).
 
-    tool: function that finds the pixels to remove, see Tool; box [px]: bounds of the tool in the raster.
+    tool: function that finds the pixels to remove in a tile, see Tool; box [px]: bounds of the tool in the raster.
     """
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))

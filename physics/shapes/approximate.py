@@ -49,13 +49,13 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
     """Divide a simple polygon into convex polygons of 3 to 16 corners, and return them.
 
     points: corners (n, 2) [px], in either winding.
-    holes: polygons (n, 2) [px] inside the outline that are cut out; they may touch it and each other at corners.
+    holes: polygons (n, 2) [px] to cut out of the inside; they may touch the outline and each other at corners.
     tolerance: largest depth of bumps and notches that are ignored to save parts [px], >= 0.
 
     With tolerance 0 the parts cover exactly the polygon, and the cuts between them lead from corner to corner. For a
-    polygon of at most 40 corners without holes, the number of parts is then the least possible with such cuts, unless a
-    part would need more than 16 corners. Raises ValueError for edges that cross or touch (the message names both), for
-    zero area, and for a hole that is not inside; TypeError if points or holes are not numbers.
+    polygon of at most 40 corners without holes, the number of parts is then the least possible with such cuts. Only
+    parts of more than 16 corners are divided further. Raises ValueError for edges that cross or touch (the message
+    names both), for zero area, and for a hole that is not inside; TypeError if points or holes are not numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -89,7 +89,7 @@ TIERS: tuple[TierName, ...] = get_args(TierName)
 
 
 def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape, ...]:
-    """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without solid pixels.
+    """Return the shapes that replace a mask at one tier (level of accuracy).
 
     mask: a PixelMask.
     tier: one of the names below.
@@ -106,9 +106,9 @@ def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape,
         "pixels": the mask tested as it is drawn (snap=True)
         "mask": the mask tested at its exact pose (snap=False)
 
-    The shapes keep the mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask,
-    ValueError for an unknown tier or a tolerance <= 0. For "pixels" and "mask" the result is the mask itself, even
-    without solid pixels.
+    The shapes keep the mask's material, filter and sensor. For a mask without solid pixels, the result is () in all
+    tiers except "pixels" and "mask". Raises TypeError for a mask that is not a PixelMask, ValueError for an unknown
+    tier or a tolerance <= 0.
     """
     _check_mask(mask)
     checks.choice("tier", tier, TIERS)
@@ -198,9 +198,9 @@ def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
     shapes: a shape or shapes with an area, in the mask's body space. Overlapping shapes count as their union.
 
     Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, a Bounds
-    as its box at the angle 0. Errors are never negative. If only the shapes or only the pixels are missing, iou is 0,
-    and hausdorff, center_error and errors divided by 0 are inf. If both are missing, iou is 1 and all errors are 0.
-    Raises TypeError for a mask that is not a PixelMask and for shapes without an area.
+    as its box at the angle 0. Errors are never negative. If there are only solid pixels or only shapes, iou is 0, and
+    hausdorff, center_error and errors divided by 0 are inf. If there are neither, iou is 1 and all errors are 0. Raises
+    TypeError for a mask that is not a PixelMask and for shapes without an area.
     """
     _check_mask(mask)
     given = [*shapes] if isinstance(shapes, (tuple, list)) else [shapes]

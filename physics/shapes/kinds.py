@@ -23,9 +23,9 @@ from physics.tables.shape import BOUNDS
 
 @dataclass(frozen=True)
 class Bounds(EqualByValue):
-    """The world AABB of another shape at its present pose, as a shape. It has that shape's material, filter and sensor.
+    """A shape that is the world AABB of another shape at its present pose.
 
-    shape: a Circle, Capsule, Polygon or PixelMask.
+    shape: a Circle, Capsule, Polygon or PixelMask. The Bounds has this shape's material, filter and sensor.
 
     Raises TypeError if `shape` is of another type.
     """
@@ -58,9 +58,9 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return an upper bound of the distance [px] from a point to the farthest point of the AABB, for any angle.
+        """Return an upper bound of the distance [px] from (x, y) to the farthest point of the AABB, at any angle.
 
-        x, y: the point in body space [px]; they are not checked.
+        x, y: coordinates in body space [px]; they are not checked.
         """
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
@@ -124,10 +124,10 @@ def checked_shape(name: str, value: Any) -> Shape:
 
 
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
-    """Return `pose` as (x, y, angle) [px, px, rad] if the shape can have this pose.
+    """Return `pose` as (x, y, angle) [px, px, rad] if the shape can have this pose, else raise an error.
 
-    shape_name, pose_name: names of the two arguments, for messages. Raises TypeError or ValueError if `pose` is not a
-    pose, ValueError if the shape cannot have its angle, and TypeError if `shape` is not a shape.
+    shape_name, pose_name: names of the two arguments, for messages. Raises TypeError if `shape` is not a shape,
+    TypeError or ValueError if `pose` is not a pose, and ValueError if the shape cannot have the pose's angle.
     """
     checked_shape(shape_name, shape)
     found = checks.pose(pose_name, pose)
@@ -152,7 +152,7 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rank_of(shape: Shape) -> int:
-    """Return the index of a shape's type in SHAPES. In a test of two shapes, the one with the lower index is first."""
+    """Return the index of a shape's type in SHAPES. In a test of two shapes, the lower index is first."""
     return next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
 
 

@@ -106,8 +106,8 @@ class Library:
     def may_be_half_unused(self, shapes: int) -> bool:
         """Return whether half of the geometry may be unused, so that copying the used half is worth the time.
 
-        This is the case if more SHAPE rows were removed than now exist (`shapes`, a number), or if the size has more
-        than doubled since the last copy. A small constant is allowed in addition.
+        This is the case if more SHAPE rows were removed than there are now, or if the size has more than doubled since
+        the last copy. Both limits are raised by a small constant. shapes: number of SHAPE rows.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
@@ -158,7 +158,7 @@ class Library:
         return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
     def _row_of(self, shape):
-        """Return the geometry row of a shape. Its geometry is added if it is not stored yet."""
+        """Return the geometry row of a shape. Geometry that is not stored yet is added first."""
         if shape not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
             self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
@@ -178,8 +178,8 @@ class Library:
     def _add_known_hulls(self, library, rows):
         """Copy convex shapes from another library, all at once. Return their new geometry rows.
 
-        rows: geometry rows of the shapes in `library`. A shape that `library.add` finds as already stored is also found
-        by `add` of this library.
+        rows: geometry rows of the shapes in `library`. Shapes that `library.add` would find as already stored are also
+        found by `add` of this library.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -252,10 +252,10 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Add shapes without searching for equal ones. Return an array (n, 3): for each shape the result of `add`.
+        """Add shapes without a search for equal ones. Return an array (n, 3): for each shape the result of `add`.
 
-        This is faster than `add`, and meant for shapes such as the parts of a mask's outline. Convex shapes that are
-        already present are stored again.
+        This is faster than `add`, and meant for shapes such as the parts of a mask's outline. A convex shape that is
+        already stored is stored again.
         """
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
@@ -280,12 +280,12 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """Store the mask `new` in place of the mask `old` of one SHAPE row. Return its geometry row.
+        """Store the mask `new` in place of the mask `old` of one SHAPE row. Return the geometry row of `new`.
 
-        changed: numbers of the tiles in which the two masks differ, None if unknown; shapes: all SHAPE rows. If the new
-        mask is large, has snap=True, and no other SHAPE row uses the old mask, only the changed tiles are overwritten:
-        O(changed words). The hull of the old mask is then kept, so the AABB at other angles may be larger than the
-        pixels. In all other cases the new mask is added by `add`.
+        changed: numbers of the tiles in which the two masks differ, None if unknown; shapes: all SHAPE rows. Three
+        conditions allow a fast update in place: the new mask is large, it has snap=True, and no other SHAPE row uses
+        the old mask. Then only the changed tiles are written: O(changed words). The hull of the old mask is kept, so
+        the AABB at other angles may be larger than the pixels. Otherwise the new mask is added by `add`.
         """
         row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -323,9 +323,9 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add the raster of a mask rotated to an angle bucket, an index of 128 angles in a full turn.
+        """Add the raster of a mask rotated to an angle bucket, one of 128 equal parts of a full turn.
 
-        mask: geometry row of the mask.
+        mask: geometry row of the mask, which is its index in Library.masks; bucket: index of the angle bucket.
         """
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
@@ -366,7 +366,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """Return a context manager. At its end, all geometry added inside it is removed, such as that of a query."""
+        """Return a context manager that finally removes all geometry added inside its `with` block, as for a query."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -396,7 +396,8 @@ class Library:
 def _drawn(shape, bucket):
     """Return the pixels of a mask at an angle bucket: (packed words, size, origin, box of the solid pixels or None).
 
-    size: (width, height) [px]; origin: origin of body space in the raster [px]; box: (left, top, right, bottom) [px].
+    bucket: index of one of 128 angles; size: (width, height) [px]; origin: origin of body space in the raster [px];
+    box: (left, top, right, bottom) [px].
     """
     if bucket == 0:
         return shape.words, shape.size, shape.origin, shape.solid_box
@@ -486,7 +487,7 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
     """Write mass, inertia and size to BODY rows whose bodies all have the given shapes.
 
     mass: Mass of the shapes; in_parts: whether masks collide by the convex parts of their outlines. If so, the column
-    `inradius` is the inradius of the thinnest part.
+    `inradius` is that of the thinnest part.
     """
     in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia

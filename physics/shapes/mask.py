@@ -34,7 +34,7 @@ TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all an
 class PixelMask(Shape):
     """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
-    PixelMask.from_surface and from_mask make one of a pygame picture.
+    PixelMask.from_surface and PixelMask.from_mask make a PixelMask of a pygame Surface or Mask.
 
     solid: solid pixels, bool [row, col].
     origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
@@ -104,7 +104,7 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> PixelMask:
-        """Return a copy of the mask with its own material, filter and sensor, which apply instead of the body's values.
+        """Return a copy of the mask with its own material, filter and sensor. They are used instead of the body's.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
         one_way: whether bodies pass through the mask from below; None: as in this mask.
@@ -119,7 +119,7 @@ class PixelMask(Shape):
     def _opened(self, wanted):
         """Return the mask with one_way = wanted, and without its own material, filter and sensor.
 
-        Repeated calls return the same object, so that a library stores its geometry once.
+        Repeated calls return the same object, so that a library stores the geometry once.
         """
         # The two masks share `fitted`, the values derived from their pixels.
         self.fitted.setdefault("one way", {})[self.one_way] = self.bare
@@ -283,7 +283,7 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the pixels rotated by an angle, as a Turned. Tests by pixels use them if snap is True.
+        """Return the pixels rotated by an angle, as a Turned. With snap=True, tests by pixels use the result.
 
         angle: [rad], rounded to the nearest of 128 angles.
 
@@ -309,9 +309,9 @@ class PixelMask(Shape):
         return known[bucket]
 
     def blocks(self, bucket: int) -> list[tuple[int, int, int, int]]:
-        """Return rectangles that together cover the mask's solid pixels at an angle bucket (index of 128 in a turn).
+        """Return rectangles that together cover the mask's solid pixels at an angle bucket.
 
-        A rectangle is (left, top, right, bottom) [px], right and bottom exclusive.
+        bucket: index of one of 128 angles. A rectangle is (left, top, right, bottom) [px], right and bottom exclusive.
         """
         if bucket not in self._blocks:
             self._blocks[bucket] = solid_blocks(self.turned_to(bucket).solid)
@@ -400,9 +400,9 @@ class PixelMask(Shape):
     def _thinnest_half(self) -> float:
         """Smallest inradius [px] of the outline's convex parts, at least 0.5.
 
-        A body that moves farther than this in a step is swept. A thin part of a sprite passes through a wall at a lower
-        speed than the whole: sprites of 3 px blocks passed 1 px walls at half their size per step (measured). A part
-        thinner than 1 px counts as 1 px thick, because it adjoins a thicker part.
+        A body that moves farther than this in a step is swept. The inradius of the whole mask would not be enough:
+        sprites of 3 px blocks passed 1 px walls at half their size per step (measured). A part thinner than 1 px counts
+        as 1 px thick, because it adjoins a thicker part.
         """
         return min((max(0.5, part.shape.min_half_extent) for part in outline_of(self)), default=self.min_half_extent)
 

@@ -180,7 +180,7 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """Return the total Mass of shapes. Area shared by several shapes counts once, at the highest of their densities.
+    """Return the total Mass of several shapes. Shared area counts once, with the highest density of the shapes there.
 
     parts: [(shape, density)], density [mass per px2].
     """
@@ -214,7 +214,7 @@ def _box_of(figure: Weighed) -> Box:
 def _groups(figures):
     """Return the sets of figures that are connected by overlaps. Figures that overlap no other figure are omitted.
 
-    Equal figures overlap, and are contained once in their set.
+    figures: list of Hull and Pixels. Equal figures overlap; a set contains them once.
     """
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
@@ -227,7 +227,7 @@ def _groups(figures):
 
 
 def _near(figures):
-    """Return the pairs [index, index] of figures whose bounding boxes share area."""
+    """Return [[i, k], ...]: the pairs of indices of figures whose bounding boxes share area."""
     if len(figures) < 2:
         return []
     boxes = np.array([_box_of(each) for each in figures])
@@ -257,7 +257,7 @@ def overlap(a: Hull, b: Hull) -> bool:
 
 
 def _shares_pixels(a: Weighed, b: Weighed) -> bool:
-    """Return whether two figures share area, where at least one of them is a mask."""
+    """Return whether two figures share area. At least one of the figures is a mask."""
     window = _common(_box_of(a), _box_of(b))
     cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
     base = (window[0], window[1])
@@ -323,7 +323,7 @@ def _union_mass(group: tuple[Hull, ...]) -> Mass:
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
     """Return the Mass of the union of overlapping masks and hulls.
 
-    It is the sum over masks and hulls, minus that of the area that both cover.
+    Shared area counts once, with the highest density of the shapes there.
     """
     base = _box_of(masks[0])[:2]
 
@@ -343,7 +343,7 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
     """Return the Sums of the union of masks, about the point `base` [px].
 
-    They are the sums over all masks, minus those of area that is counted more than once.
+    The Sums of all masks are added, and area that this counts more than once is subtracted.
     """
     sums = NO_SUMS
     for each in masks:

@@ -67,7 +67,7 @@ class OutlinePart(NamedTuple):
 class Tile:
     """Part of a mask's outline in one square tile of the mask.
 
-    It depends on the pixels of the tile, and on those up to HALO px around it.
+    The outline depends on the pixels of the tile, and on pixels up to HALO px around the tile.
     """
 
     def __init__(self, mask: Sprite, number: int) -> None:
@@ -78,7 +78,7 @@ class Tile:
         self.parts = tile_parts(window, mask.smooth, self.at)  # in raster pixels
 
     def has_parts_of(self, other: "Tile") -> bool:
-        """Return whether both tiles have the same parts, bit for bit."""
+        """Return whether this tile and another one have the same parts, bit for bit."""
         return all(mine.tobytes() == its.tobytes() for mine, its in zip(self.parts, other.parts, strict=True))
 
     @cached_property
@@ -143,7 +143,7 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Copy the cached outline tiles of the mask `old` to `mask`, and recompute those near changed pixels.
+    """Copy the cached outline tiles of the mask `old` to `mask`, and recompute the tiles near changed pixels.
 
     Return the sorted numbers of the tiles whose outline may have changed: tiles with other parts, and their neighbours
     if corners on the common border changed. Both masks have the same size, origin and smooth; `old` may be the mask
@@ -313,8 +313,8 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
     A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards. The
     floors of holes are included. A chain ends at a vertical side or an underside. A vertical step of at most `smooth`
-    [px] between two upper sides is replaced by its middle point, so that characters do not catch on it. The outline is
-    the result of outline.contour.outline. O(pixels) at the first call, then cached.
+    [px] between two upper sides is replaced by its middle point. So characters do not catch on it. The outline is the
+    result of outline.contour.outline. O(pixels) at the first call, then cached.
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]

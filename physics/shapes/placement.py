@@ -22,8 +22,8 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 def exact_aabb(rasters, corners, raster, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at an exact pose of its body.
 
-    For an empty mask it is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row number of the
-    mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
+    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row number
+    of the mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -72,7 +72,7 @@ def raster_of_shape(geometry, shape):
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at the pose at which it is tested.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at the pose used in collision tests.
 
     A mask with snap=True is tested as drawn, at whole pixels; any other mask at its exact pose. shape: SHAPE row.
     """
@@ -156,9 +156,9 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Return whether a SHAPE row is a mask with snap=True whose raster is only added when a test needs it.
+    """Return whether a SHAPE row is a mask with snap=True whose raster is not added before a test needs it.
 
-    Such a row stores the AABB at the exact pose.
+    The AABB stored in such a row is that of the exact pose.
     """
     return shape.snap and shape.role == PIXELS
 
@@ -307,8 +307,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    For a mask it is the AABB of the solid pixels. They are drawn on whole pixels if the mask has snap=True and its role
-    is not PIXELS, otherwise they are at the exact pose. For an empty mask it is the point (x, y). row: row number in
+    The AABB of a mask is that of its solid pixels; for an empty mask it is the point (x, y). The pixels are on whole
+    coordinates if the mask has snap=True and its role is not PIXELS, otherwise at the exact pose. row: row number in
     SHAPE; x, y, angle [px, px, rad]: the pose.
     """
     s = shapes[row]
@@ -379,7 +379,7 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
     Return the number found, which may exceed the capacity of missing_out. Only masks with snap=True need such rasters.
     rows: indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask,
-    angle bucket), possibly with duplicates. O(rows).
+    index of the angle bucket), possibly with duplicates. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
@@ -406,10 +406,10 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Write raster, left, top and the AABB of a mask with snap=True for its body's pose to its SHAPE row.
+    """Write the raster, left, top and AABB of a mask with snap=True at its body's pose to the mask's SHAPE row.
 
-    rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer. body:
-    BODY row; shape_inout: SHAPE row.
+    left, top: pixel column and row of the raster's top left corner. rasters, raster_of: tables of the geometry, passed
+    separately because passing the whole Geometry takes longer. body: BODY row; shape_inout: SHAPE row.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -487,7 +487,7 @@ def refresh_aabbs(rows, geometry, bodies, shapes_inout):
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Add the rasters that masks with snap=True need at their present angles and at those after dt [s].
+    """Add the rasters that masks with snap=True need at their present angles and at their angles after dt [s].
 
     rows: indices of SHAPE rows.
     """

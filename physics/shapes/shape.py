@@ -169,7 +169,7 @@ def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the Parts whose AABBs overlap or touch the box (left, top, right, bottom) [px].
+    """Return the subset of `parts` whose AABBs overlap or touch the box (left, top, right, bottom) [px].
 
     The box is first enlarged by a margin for rounding errors.
     """
@@ -223,9 +223,9 @@ class Shape:
     points: corners of a convex shape, clockwise on the screen, or ends of the links of a chain [px].
     radius: radius of a circle or capsule, rounding of a polygon [px], 0 for other shapes.
 
-    Callers use these methods and never test the type. The methods of this class suit ground: no mass, and hulls that
-    rotate with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the
-    types.
+    Callers use these methods and never test the type. The methods of this base class suit ground shapes: they have no
+    mass, and hulls that rotate with the body. Convex (values.py) computes all results from corners and a radius. SHAPES
+    (kinds.py) lists the types.
     """
 
     material: Material | None = None  # own material, filter and sensor of the shape; None: its body's
@@ -284,7 +284,7 @@ class Shape:
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
         """Return the convex hulls of the shape in body space: [(corners (n, 2) [px], rounding radius [px])].
 
-        For a mask they are rectangles of pixels.
+        The hulls of a mask are rectangles of pixels.
         """
         return []
 
@@ -325,10 +325,13 @@ class Shape:
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
-        """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
+        """Raise ValueError if a body of this kind at one of these angles [rad] cannot have the shape.
+
+        kind: STATIC, KINEMATIC or DYNAMIC.
+        """
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return a copy of the shape with its own material, filter and sensor. They apply instead of the body's values.
+        """Return a copy of the shape with its own material, filter and sensor. They are used instead of the body's.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
 

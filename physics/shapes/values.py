@@ -124,8 +124,8 @@ class Capsule(Convex):
     a, b: ends of the line (x, y), in body space [px], two different points.
     radius: [px], > 0.
 
-    Raises TypeError for arguments of other types, ValueError for a radius <= 0, and for a and b so close to each other
-    that the line has no direction.
+    Raises TypeError for arguments of other types, and ValueError for a radius <= 0. Also raises ValueError if a and b
+    are so close to each other that the line has no direction.
     """
 
     a: Vec2
@@ -157,8 +157,8 @@ class Polygon(Convex):
     points: 3 to 16 corners (n, 2) in body space [px], in either winding; they are stored clockwise on the screen.
     radius: rounding radius, added around the polygon [px], >= 0.
 
-    Raises TypeError for arguments of other types. Raises ValueError for another number of corners, for zero area, for
-    equal corners or three collinear corners, for a concave outline (`decompose` divides it), and for a radius below 0.
+    Raises TypeError for arguments of other types. Raises ValueError for another number of corners, zero area, equal
+    corners, three collinear corners, a concave outline (`decompose` divides it), and a radius below 0.
     """
 
     points: tuple[Vec2, ...]
@@ -235,8 +235,8 @@ class Polygon(Convex):
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Return disjoint rectangles (left, top, right, bottom) that cover the solid cells of solid[row, col].
 
-    Right and bottom are exclusive. Each rectangle is a maximal sequence of solid cells in one row, extended down over
-    the following rows as long as they have a sequence with the same ends.
+    Right and bottom are exclusive. Each rectangle starts as a maximal sequence of solid cells in one row. The rectangle
+    is extended down over the following rows that have a sequence with the same ends.
     """
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
@@ -257,8 +257,8 @@ class TileGrid(Shape):
 
     solid: solid tiles, bool [row, col]. The origin of body space is the top left corner of tile [0, 0].
     tile_size: side of a tile [px], > 0.
-    one_way: one-way platforms, bool [row, col]; bodies pass through them from below. They need the effect `one_way`.
-        None: no platforms.
+    one_way: one-way platforms, bool [row, col]; bodies pass through them from below, if the world has
+        the effect `one_way`. None: no platforms.
     slopes: number [row, col, 2]: height of the surface above the tile's bottom at its left and right side, as a
         fraction 0 to 1 of the tile; (0, 1) rises to the right, (0, 0) is no slope; None: no slopes.
 
@@ -311,7 +311,7 @@ class TileGrid(Shape):
 
     @cached_property
     def is_empty(self) -> bool:
-        """True if all cells are empty."""
+        """Whether all cells are empty."""
         return not (self.solid.any() or self.one_way.any() or (self.slopes > 0.0).any())
 
     @property
@@ -333,8 +333,8 @@ class TileGrid(Shape):
         """Return the convex outlines of the tiles, each a list of corners (x, y) [px].
 
         x, y [px]: position of the grid's origin; feet [px]: y of the lowest point of the other shape, relative to the
-        grid's origin. The outline of a one-way tile is the line along its top; it is omitted if `feet` is below this
-        line.
+        grid's origin. The outline of a one-way tile is the line along its top. This line is omitted if the other
+        shape's lowest point is below it.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks
@@ -447,12 +447,12 @@ class Chain(EqualByValue):
 
     points: ends of the links (n, 2), in body space [px]; at least 2, at least 3 for a loop.
     loop: whether the last point is linked to the first.
-    ghosts: (before, after), points (x, y) [px] that continue the chain beyond its two ends; each may be None. They only
-        smooth collisions at the ends, and are not solid themselves.
+    ghosts: (before, after), points (x, y) [px] that continue the chain beyond its two ends; each may be None.
+        Ghosts only smooth collisions at the ends, and are not solid themselves.
     materials: one Material per link; None: the material of the shape or body.
 
     A link of direction (dx, dy) is solid from the side to which (dy, -dx) points. So list the points of a floor from
-    left to right, those of a solid island clockwise on the screen, and those of a room counter-clockwise. Raises
+    left to right. List those of a solid island clockwise on the screen, and those of a room counter-clockwise. Raises
     TypeError for arguments of other types; ValueError for too few points, a link without length, a number of materials
     other than the number of links, and ghosts of a loop.
     """

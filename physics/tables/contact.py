@@ -346,5 +346,8 @@ def with_rows(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> n
 
 
 def without_removed(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> np.ndarray:
-    """Return a copy of the contacts whose bodies and shapes still exist, with present row numbers, see with_rows."""
+    """Return a copy of the contacts whose bodies and shapes still exist, with present row numbers.
+
+    bodies: BODY rows; shapes: SHAPE rows; contacts: CONTACT rows, not changed.
+    """
     return with_rows(bodies, shapes, joined([contacts])) if len(contacts) else contacts

@@ -47,8 +47,8 @@ COUNTERS = (
 class WorldTables(Protocol):
     """Fields that a World and the StepState of its step have in common.
 
-    Functions that run both between steps and within a step take a WorldTables, for example those for sleeping and
-    waking. A field is annotated Any if its type belongs to a package that imports this one.
+    Functions that run both between and within steps take a WorldTables, for example those for sleeping and waking. A
+    field is annotated Any if its type belongs to a package that imports this one.
     """
 
     awake: Any  # islands.awake.Awake
