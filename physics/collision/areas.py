@@ -27,9 +27,9 @@ from physics.tables.table import rows_of
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     """Write the outline of one part of a tile grid or chain to workspace.b. Return the number of corners.
 
-    The corners are in world coordinates [px]. row: row number in SHAPE of the grid or chain. part: for a grid the index
-    of the first cell of a run (adjacent equal tiles in a row, one rectangle), for a chain the index of a link. A link
-    has no area, so it is widened to a rectangle of thickness BACKING.
+    The corners are in world coordinates [px]. row: row number in SHAPE of the grid or chain. part: index of a link, or
+    of the first cell of a run. A run is adjacent equal tiles in a row, treated as one rectangle. A link has no area, so
+    it is widened to a rectangle of thickness BACKING.
     """
     s = shapes[row]
     b = bodies[s.body_row]

@@ -129,9 +129,9 @@ def is_gentle_hollow(points, i, j, k):
 def is_behind(link, points, x, y):
     """Return whether a shape with its centre at (x, y) is behind a link, and therefore does not collide with it.
 
-    There is an exception at a gentle hollow between this link and a neighbouring link. If the centre has slid past the
-    neighbour's end, but is still in front of the neighbour's line, it does not count as behind this link. link: LINK
-    row; points: the link's ends and the far ends of its neighbours [px], see link_at.
+    There is an exception at a gentle hollow between this link and a neighbour. A centre that has slid past the
+    neighbour's end does not count as behind this link while it is in front of the neighbour's line. link: LINK row;
+    points: the link's ends and the far ends of its neighbours [px], see link_at.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -245,9 +245,10 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
-    The neighbour at the end towards which (nx, ny) points is tested. This neighbour is better if the Hull's centre (x,
-    y) is in front of its line, and each corner of the Hull is so by more than `face`. face [px]: the Hull's separation
-    from this link. points: this link's ends and the far ends of its neighbours [px], see link_at.
+    The neighbour at the end towards which (nx, ny) points is tested. This neighbour is better under two conditions. The
+    Hull's centre (x, y) must be in front of the neighbour's line. Each corner of the Hull must be more than `face` in
+    front of this line. face [px]: the Hull's separation from this link. points: this link's ends and the far ends of
+    its neighbours [px], see link_at.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2

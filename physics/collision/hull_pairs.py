@@ -365,11 +365,12 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 
 @inlined
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
-    """Append the contact of a disc with a piece of ground. Return the new number of contacts.
+    """Append the contact of a disc with a piece of ground: a run of tiles or a link of a chain.
 
-    meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
-    hulls.collide_hull_circle or chains.collide_link_circle for the disc at this position. pair, manifolds_out, found:
-    as in manifold.add_manifold. batch: input of the pass, a manifold.Batch; workspace: scratch memory.
+    Return the new number of contacts. meeting: the predicted contact; disc: (x, y, radius) at this contact; contact:
+    the tuple returned by hulls.collide_hull_circle or chains.collide_link_circle for the disc at this position. pair,
+    manifolds_out, found: as in manifold.add_manifold. batch: input of the pass, a manifold.Batch; workspace: scratch
+    memory.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -389,10 +390,11 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
 @inlined
 def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
-    """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of contacts.
+    """Append the manifold of a hull and a piece of ground: a run of tiles or a link of a chain.
 
-    The manifold was computed at the predicted contact `meeting`; it is converted to the hull's present position. pair,
-    manifolds_out, found: as in manifold.add_manifold. batch: input of the pass, a manifold.Batch.
+    Return the new number of contacts. The manifold is in workspace.points. It was computed at the predicted contact
+    `meeting`, and is converted to the hull's present position. pair, manifolds_out, found: as in manifold.add_manifold.
+    batch: input of the pass, a manifold.Batch.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -495,8 +497,8 @@ def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls have a narrow contact face: their extents overlap by at most `most` [px] along it.
 
     far: whether the Hulls move far relative to each other in this step. If so, the face is also narrow if its two
-    contact points are at most `most` apart. For slow Hulls this second condition is not used, because a contact with
-    close points may support a body, as the edge of a card does. manifold (11,): format in hulls.clip_edges.
+    contact points are at most `most` apart. This second condition is not used for slow Hulls. A contact with close
+    points may support a body, as on the edge of a card. manifold (11,): format in hulls.clip_edges.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True

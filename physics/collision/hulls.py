@@ -148,10 +148,10 @@ def middle_of(corners, count):
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull.
 
-    No normal is valid at a corner that is not touchable (covered by a neighbouring part of the same shape). At a corner
-    with only one edge on the outline of the whole shape, the normal must be near the normal of this edge; the largest
-    angle is stored in `edges`. At other corners every normal is valid. corner: index of the corner; edges: bits, see
-    ALL_EDGES; count: number of corners.
+    No normal is valid at a corner that is not touchable (covered by a neighbouring part of the same shape). Some
+    corners have only one edge on the outline of the whole shape. There, the normal must be near the normal of this
+    edge; the largest angle is stored in `edges`. At other corners every normal is valid. corner: index of the corner;
+    edges: bits, see ALL_EDGES; count: number of corners.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -580,7 +580,7 @@ def ends_face(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def is_over(corners, count, edge, x, y):
-    """Return whether the projection of the point (x, y) onto an edge of a polygon lies between the edge's ends."""
+    """Return whether the projection of the point (x, y) onto an edge of a polygon is between the edge's ends."""
     following = edge + 1 if edge + 1 < count else 0
     dx = corners[following, 0] - corners[edge, 0]
     dy = corners[following, 1] - corners[edge, 1]

@@ -237,8 +237,8 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
     """Return additional CONTACT rows, at most one for each pair of whole shapes that has parts in the fallback queue.
 
-    A pair of shapes gets a row if none of its contacts overlap. A pair also gets a row if an overlap is deeper than
-    batch.margin, because such contacts may push a body along a wall instead of out of it. found: CONTACT rows of this
+    A pair of shapes gets a row if none of its contacts overlap. A row is also added if an overlap is deeper than
+    batch.margin: such contacts may push a body along a wall instead of out of the wall. found: CONTACT rows of this
     step; previous: CONTACT rows of the last step, whose normals are preferred so that the push does not alternate in
     direction; batch: input of the pass; workspace: scratch memory with the queue.
     """

@@ -73,8 +73,8 @@ def may_change(a, b):
 def is_wanted(which, a, b):
     """Return whether the selection `which` accepts a pair of shapes, considering only their sensor flags.
 
-    which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The second condition of SOLIDS, may_change, is not
-    tested.
+    which: pairs to select: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The second condition of SOLIDS,
+    may_change, is not tested.
     """
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
 
@@ -186,7 +186,8 @@ def boxes_apart(a, b, margin):
 def kind_asked(bodies, a, b, margin, lookahead, which):
     """Return the kind of a candidate pair (CIRCLES, POLYGONS, …); NOTHING if the pair need not be tested.
 
-    a, b: SHAPE rows; margin [px], lookahead [s]: as in Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
+    a, b: SHAPE rows; margin [px], lookahead [s]: as in Batch; which: pairs to select: ALL, NO_SENSORS, SOLIDS or
+    SENSORS.
     """
     if not is_wanted(which, a, b):
         return NOTHING
@@ -219,10 +220,11 @@ def is_of_child(a, b):
 def classify(batch, which, kinds_out, counts_out, work_inout):
     """Write the kind of each candidate pair, and the number of pairs of each kind. O(candidates).
 
-    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With SOLIDS and
-    SENSORS, pairs whose AABBs are farther apart than batch.margin also get NOTHING, unless they may meet within
-    batch.lookahead. counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]:
-    number of pairs with a mask that must be rasterized first. work_inout: counters, see COUNTERS.
+    which: pairs to select: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With
+    SOLIDS and SENSORS, pairs whose AABBs are farther apart than batch.margin also get NOTHING, unless they may meet
+    within batch.lookahead. counts_out[WITH_CHILD]: number of pairs with a part of a larger shape;
+    counts_out[DRAWN_PAIRS]: number of pairs with a mask that must be rasterized first. work_inout: counters, see
+    COUNTERS.
     """
     bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
@@ -320,9 +322,9 @@ class NarrowPhase:
 
         The result is a view. The next call leaves it valid, the call after that overwrites it. Masks are first
         rasterized at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in
-        SHAPE; margin [px]: largest gap of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or
-        SENSORS; bias [px]: as in hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground,
-        or None.
+        SHAPE; margin [px]: largest gap of a contact; work: counters of work done; which: pairs to select: ALL,
+        NO_SENSORS, SOLIDS or SENSORS; bias [px]: as in hulls.collide_hulls; previous: CONTACT rows of the last step,
+        used for one-way ground, or None.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -354,7 +356,7 @@ class NarrowPhase:
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
         """Return the CONTACT rows of the candidates, computed from AABBs alone, see collide_boxes.
 
-        which: ALL, NO_SENSORS, SOLIDS or SENSORS; work: counters of work done.
+        which: pairs to select: ALL, NO_SENSORS, SOLIDS or SENSORS; work: counters of work done.
         """
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
         return self.raw[:found]  # self.raw is a new, larger table if the old one was too small

@@ -123,8 +123,8 @@ def room_for_lines(cracks: int) -> Lines:
 def read_vertices(found, path, workspace):
     """Write the vertices (ends of lines) that the line search found to workspace.vertices. Return the number of lines.
 
-    found: number of entries of workspace.chain, which lists the vertices' rows in workspace.places from last to first;
-    path: Path; workspace: Lines.
+    found: number of entries of workspace.chain, which lists the row of each vertex in workspace.places, from last to
+    first; path: the Path; workspace: scratch arrays (Lines).
     """
     vertices, places = workspace.vertices, workspace.places
     count = found - 1
@@ -171,7 +171,7 @@ def turn_beyond(k, step, count, closed, vertices):
     step: 1 for the lines after line k, -1 for those before it. The turn is the smallest one between line k and the next
     few lines, up to the first that is not much shorter than line k. Lines shorter than SPIKE px are ignored. No line
     follows beyond a fixed corner (anchor) or the end of an open path. count: number of lines of the path; closed:
-    whether the path is closed; vertices: VERTEX rows.
+    whether the path is closed; vertices: VERTEX rows, the starts of the lines.
     """
     j = k
     least = 0.0
@@ -224,7 +224,7 @@ def write_middles(path, workspace):
     """Write the middle of each pixel edge of a path to workspace.middles: the middle of edge k to row FIT + k.
 
     For a closed path, the last FIT edges are also written before the first, and the first FIT edges after the last.
-    path: Path; workspace: Lines.
+    path: the Path; workspace: its runs and scratch arrays (Lines).
     """
     for k in range(path.count):
         run = workspace.runs[k]
@@ -270,7 +270,7 @@ def fit_at(row, half, middles, fitted_out):
 def fit_curve(curve, path, workspace):
     """Write the fitted point and direction (FITTED) at each pixel edge of a curve, and at the edge before its start.
 
-    curve: Curve; path: Path; workspace: Lines.
+    curve: Curve; path: the Path; workspace: its runs and scratch arrays (Lines).
     """
     first = math.floor(curve.start - 0.5)
     for crack in range(first, math.floor(curve.end - 0.5) + 2):
@@ -323,9 +323,10 @@ def off_corner(x, y, before, run, most):
 def put_on_curve(n, k, along, curve, path, workspace):
     """Append a candidate corner (PLACE row) on run k of a path, moved onto the curve. Return the number of PLACE rows.
 
-    Inside a run, the candidate is moved only along the run's normal. n: number of PLACE rows before; k: index of the
-    run, which in a loop may exceed the number of runs; along: position from the start of the run, in pixel edges, 0 for
-    the corner at which the run starts; path: Path; workspace: Lines.
+    A run is a straight row of pixel edges. Inside a run, the candidate is moved only along the run's normal. n: number
+    of PLACE rows before; k: index of the run, which in a loop may exceed the number of runs; along: position from the
+    start of the run, in pixel edges, 0 for the corner at which the run starts; path: the Path; workspace: its runs and
+    scratch arrays (Lines).
     """
     runs = workspace.runs
     run = runs[k % path.count]
@@ -356,7 +357,7 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
     """Append a vertex as a candidate corner (PLACE row) on run k of a path. Return the number of PLACE rows.
 
     vertex: VERTEX row; n: number of PLACE rows before; at: position of the vertex along the path, in pixel edges;
-    curve: Curve that gives the direction of the row; path: Path; workspace: Lines.
+    curve: Curve that gives the direction of the row; path: the Path; workspace: its runs and scratch arrays (Lines).
     """
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
@@ -366,9 +367,10 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the index of the run at a position along a path. at: the position, in pixel edges.
+    """Return the index of the run (straight row of pixel edges) at a position along a path.
 
-    For a loop, `at` may exceed its length; then the index exceeds the number of runs. runs: RUN rows; path: Path.
+    at: the position, in pixel edges. In a loop it may exceed the loop's length; then the index exceeds the number of
+    runs. runs: RUN rows; path: Path.
     """
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
@@ -380,7 +382,7 @@ def run_at(at, runs, path):
 def put_curve(first, last, curve, path, workspace):
     """Write the candidate corners (PLACE rows) of a curve between two vertices. Return the number of PLACE rows.
 
-    first, last: indices of the vertices; curve: Curve; path: Path; workspace: Lines.
+    first, last: indices of the vertices; curve: Curve; path: the Path; workspace: its runs and scratch arrays (Lines).
     """
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
@@ -431,8 +433,8 @@ def widest_fit(first, length, count, path, vertices):
 def span_of(first, length, count, path, workspace):
     """Return the Curve that consists of `length` lines of a path, starting at vertex `first`.
 
-    The Curve's field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: Path;
-    workspace: Lines.
+    The Curve's field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: the
+    Path; workspace: its runs and scratch arrays (Lines).
     """
     vertices = workspace.vertices
     start = vertices[first].at

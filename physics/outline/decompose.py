@@ -126,11 +126,11 @@ TRIED_LINES = 16  # number of lines tested in one array operation, shortest firs
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
-    A bridge is a line inside the polygon that joins a hole, or a group of touching holes, to the outer loop or to a
-    hole already joined. The shortest such line is used. The bridge becomes two sides of opposite directions. points (n,
-    2) [px], all distinct; loops: arrays of indices of points: first the outer loop, clockwise on the screen, then
-    holes, counter-clockwise. Loops may touch at common points. flat [px2]: a triangle is degenerate if twice its area
-    is at most this.
+    A bridge is a line inside the polygon. It joins a group of touching holes to the outer loop or to a hole already
+    joined. The shortest such line is used. The bridge becomes two sides of opposite directions. points (n, 2) [px], all
+    distinct; loops: arrays of indices of points: first the outer loop, clockwise on the screen, then holes,
+    counter-clockwise. Loops may touch at common points. flat [px2]: a triangle is degenerate if twice its area is at
+    most this.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -243,8 +243,8 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
     In the result the outer ring is clockwise on the screen, the holes are counter-clockwise; the arguments may have
     either winding. Holes may touch the outer ring and each other at common corners. Raises ValueError for a ring of
-    fewer than three corners or without area, for edges that meet (the message names both), and for a hole that is not
-    inside.
+    fewer than three corners or without area, and for a hole that is not inside. Also raises ValueError for edges that
+    meet; the message names both.
     """
     rings = [np.asarray(each, float) for each in (outer, *holes)]
     for number, ring in enumerate(rings):
@@ -586,8 +586,8 @@ def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance:
     outer (n, 2), holes [(m, 2)] [px]: in either winding. Holes may touch the outer ring and each other only at common
     corners. tolerance [px] >= 0: bumps and notches are removed first, as long as each removed corner is within
     tolerance of the side that replaces it and no sides cross; with 0 the parts cover exactly the polygon. Raises
-    ValueError for edges that meet or cross (the message names both), for rings without area or of fewer than three
-    corners, and for holes that are not inside.
+    ValueError for edges that meet or cross; the message names both. Also raises ValueError for rings without area or of
+    fewer than three corners, and for holes that are not inside.
     """
     rings = simple_rings(outer, holes)
     return partition(shaved(rings, tolerance) if tolerance > 0.0 else rings)

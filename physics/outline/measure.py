@@ -48,7 +48,7 @@ class Stretch(NamedTuple):
 
 
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
-    """Return the boundary of a union of hulls as stretches with the inside on their right; [] without hulls.
+    """Return the boundary of a union of hulls as lines and arcs with the inside on their right; [] without hulls.
 
     A side shared by two hulls is not part of the boundary. Only hulls with overlapping bounding boxes are compared.
     O(sides²) at worst.
@@ -109,9 +109,9 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Return the fractions of a stretch's length at which other stretches start, end or cross it, and 0 and 1; sorted.
+    """Return the fractions of a line's or arc's length at which other ones start, end or cross it, and 0 and 1; sorted.
 
-    side: the stretch; others: the other stretches; near [px]: a smaller distance counts as 0.
+    side: the line or arc, a Stretch; others: the other Stretches; near [px]: a smaller distance counts as 0.
     """
     shares = [0.0, 1.0]
     for other in others:
@@ -126,9 +126,10 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """Return the fraction of a stretch's length at which a point is; -1 if it is not on the stretch's line or circle.
+    """Return the fraction of a line's or arc's length at which a point is; -1 for a point beside it.
 
-    side: the stretch; near [px]: the point counts as on the line or circle up to this distance.
+    side: the line or arc, a Stretch; near [px]: largest distance of the point from the infinite line or full circle; if
+    it is farther, -1 is returned.
     """
     if side.radius == 0.0:
         along = side.end - side.start
@@ -142,9 +143,9 @@ def _share(side, point, near):
 
 
 def _line_meets(side, other):
-    """Return the points where the infinite line of a straight stretch meets the line or circle of another stretch.
+    """Return the points where the infinite line of a straight Stretch meets the line or circle of another Stretch.
 
-    side: the straight stretch; other: the other stretch. The list has 0 to 2 points.
+    side: the straight Stretch; other: the other Stretch, a line or arc. The list has 0 to 2 points.
     """
     along = side.end - side.start
     if other.radius > 0.0:
@@ -158,9 +159,9 @@ def _line_meets(side, other):
 
 
 def _arc_meets(side, other):
-    """Return the points where the full circle of an arc meets the line or circle of another stretch.
+    """Return the points where the full circle of an arc meets the line or circle of another Stretch.
 
-    side: the arc; other: the other stretch. The list has 0 or 2 points.
+    side: the arc, a Stretch; other: the other Stretch, a line or arc. The list has 0 or 2 points.
     """
     if other.radius == 0.0:
         return _on_circle(other.start, other.end - other.start, side.center, side.radius)
@@ -189,11 +190,12 @@ def _on_circle(start, along, center, radius):
 
 
 def _covered(stretch, hull, earlier, near):
-    """Return whether another hull removes a stretch of one hull's boundary from the boundary of the union of hulls.
+    """Return whether another hull removes a section of one hull's boundary from the boundary of the union of hulls.
 
-    A stretch inside the other hull is removed. A stretch on the other hull's boundary is removed if the two hulls are
-    on opposite sides of it. If both are on the same side, it is kept only for the first of the two hulls. hull: the
-    other hull; earlier: whether the other hull comes first; near [px]: a smaller distance counts as 0.
+    A section inside the other hull is removed. A section on the other hull's boundary is removed if the two hulls are
+    on opposite sides of it. If both are on the same side, it is kept only for the first of the two hulls. stretch: the
+    section; hull: the other hull; earlier: whether the other hull comes first; near [px]: a smaller distance counts as
+    0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -252,7 +254,7 @@ class Moments(NamedTuple):
 def moments(around: Sequence[Stretch]) -> Moments:
     """Return the Moments of the figure inside a closed boundary.
 
-    If the area is 0, the centre is nan and the inertia 0. around: stretches of the boundary.
+    If the area is 0, the centre is nan and the inertia 0. around: lines and arcs of the boundary.
     """
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
@@ -358,11 +360,11 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Measure distances of stretches from another boundary. Return (largest distance [px] so far, stretches to divide).
+    """Measure distances of lines and arcs from another boundary, at their ends and middles.
 
-    The distance is measured at both ends and in the middle of each stretch. A stretch must be divided if it may contain
-    a point with a larger distance; it is listed as (upper bound [px] of its distance, stretch). some: the stretches to
-    measure; other: _Figure of the other boundary; best [px]: largest distance found before.
+    Return (largest distance [px] found so far, list of the lines and arcs to divide). A line or arc must be divided if
+    it may contain a point with a larger distance. It is listed as (upper bound [px] of its distance, Stretch). some:
+    the lines and arcs; other: _Figure of the other boundary; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -470,7 +472,7 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
     """Return the Sums about the base point [px] of the solid area inside a closed boundary.
 
-    A cell is solid if at least one mask has a solid pixel there. around: stretches of the boundary.
+    A cell is solid if at least one mask has a solid pixel there. around: lines and arcs of the boundary.
     """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
@@ -507,7 +509,7 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """Return the parts of a stretch after cutting it at all grid lines that it crosses.
+    """Return the parts of a line or arc (Stretch) after cutting it at all grid lines that it crosses.
 
     Each part is in one column and one row of cells.
     """

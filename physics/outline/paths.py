@@ -288,8 +288,9 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 def put_run(n, run, start, end, offset, places_inout):
     """Append up to three candidate corners (PLACE rows) inside a run. Return the new number of PLACE rows.
 
-    n: number of rows before; run: RUN row; start, end: positions along the path, in pixel edges; only candidates
-    between them are added; offset: number added to the positions of the candidates, for the second turn around a loop.
+    A run is a straight row of pixel edges. n: number of PLACE rows before; run: RUN row; start, end: positions along
+    the path, in pixel edges; only candidates between them are added; offset: number added to the positions of the
+    candidates, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:

@@ -239,8 +239,8 @@ def corners_of(sides, first):
 def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
-    Return the new number of SIDE rows, or -1 if a hole has no such line, which means that the rings are not a polygon.
-    n: number of rows before; sides_inout: SIDE rows.
+    Return the new number of SIDE rows, or -1 if a hole has no such line; then the rings are not a polygon. n: number of
+    rows before; sides_inout: SIDE rows.
     """
     while True:
         waiting = 0

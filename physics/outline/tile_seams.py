@@ -1,9 +1,9 @@
 """Flags for corners and sides of a tile's convex parts that are not on the mask's outline, because other parts adjoin.
 
-A side shared by two parts is inner: it is not on the outline. A corner is covered if the outline has no convex corner
-there, which means that the angles of all parts at the corner sum to half a turn or more. Otherwise the corner belongs
-to the first part that has a side on the outline there, and is covered for all other parts. Parts are ordered by tiles,
-row by row, then by their order within the tile. A corner at which the whole outline turns less than the part is blunt.
+A side shared by two parts is inner: it is not on the outline. A corner is covered if the angles of all parts at the
+corner sum to half a turn or more, because the outline is not convex there. Otherwise the corner belongs to the first
+part that has a side on the outline there, and is covered for all other parts. Parts are ordered by tiles, row by row,
+then by their order within the tile. A corner at which the whole outline turns less than the part is blunt.
 """
 
 import math
@@ -49,9 +49,9 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
     """Return (row, column) of each tile with a changed corner on its border, after one tile's parts have changed.
 
-    A corner is changed if only one of the arrays `before` and `after` (m, 5) contains it. The arrays are
-    Survey.meetings of the changed tile before and after. Tiles outside the mask are also returned. row, column:
-    position of the changed tile; size [px]: side of a tile.
+    A corner is changed if only one of the arrays `before` and `after` (m, 5) contains it. The arrays list the corners
+    on the border of the tile whose parts changed, before and after, see Survey.meetings. Tiles outside the mask are
+    also returned. row, column: position of this tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -61,9 +61,9 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
     """Return which sides and corners of each part of a tile are not on the outline, as SHAPE.inner flags (k,) int64.
 
-    known: Survey of the parts; around (m, 5): Survey.meetings of the tile, of its neighbours and possibly of more
-    tiles, in the order of tile numbers; number: index of the tile, counted row by row; columns: number of tiles per
-    row.
+    known: Survey of the parts; around (m, 5): corners on the borders of this tile, its neighbours and possibly more
+    tiles, in the order of tile numbers, see Survey.meetings; number: index of the tile, counted row by row; columns:
+    number of tiles per row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -165,7 +165,10 @@ def seam_turn(angle):
 
 @subkernel
 def corner_bits(k, turn):
-    """Return the SHAPE.inner flags for corner k of a part. turn [rad]: turn of the outline at the corner."""
+    """Return the bits of SHAPE.inner that mark corner k of a part as covered or blunt; 0 for a sharp corner.
+
+    turn [rad]: turn of the outline at the corner; COVERED for a covered corner, at most SHARPEST for a blunt one.
+    """
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -198,9 +201,9 @@ def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
     Only the turns at seams (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus
-    the sum of the interior angles of all parts with this corner. The turn is COVERED instead if the sum is HALF_TURN or
-    more, or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see
-    inner_bits; place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
+    the sum of the interior angles of all parts with this corner. The result is COVERED instead if the sum is at least
+    HALF_TURN, or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around:
+    see inner_bits; place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place

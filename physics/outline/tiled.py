@@ -265,9 +265,9 @@ def room_in(window, runs, count, k, x, y, after):
 def aside(window, runs, count, k, distance):
     """Return the distance [px] from a point of run k to the line that approximates the path, perpendicular to the run.
 
-    The result is positive in the direction of run k - 1, and its absolute value is at most window.reach. runs: RUN
-    rows, of which the first `count` are the path; distance: position of the point from the start of the run, in pixel
-    edges.
+    A run is a straight row of pixel edges. The result is positive in the direction of run k - 1, and its absolute value
+    is at most window.reach. runs: RUN rows, of which the first `count` are the path; distance: position of the point
+    from the start of the run, in pixel edges.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -380,10 +380,10 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Write row n of places_inout (PLACE rows): a border crossing, given by its position along a path and offset.
+    """Write row n of places_inout (PLACE rows): the point where the outline crosses the tile's border.
 
-    runs: RUN rows, of which the first `count` are the path; at: position along the path, in pixel edges; off_x, off_y
-    [px]: the offset.
+    The point is given by its position along a path and an offset from the path. at: the position, in pixel edges;
+    off_x, off_y [px]: the offset; runs: RUN rows, of which the first `count` are the path.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:

@@ -159,7 +159,7 @@ def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
     Both rasters are one word wide, so the shared pixels are a word. The returned row is counted from the first compared
     row. word_a, word_b: index in `words` of each raster's word in the first compared row; shift_a, shift_b: number of
     columns to skip on the left of each raster; rows: number of compared rows. The right end needs no mask, because
-    words are clear beyond their solid bounds. O(rows).
+    words are clear beyond the solid pixels. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -201,7 +201,7 @@ def halo(solid: np.ndarray) -> np.ndarray:
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """Return the intersection (left, top, right, bottom) of the solid bounds of rasters a and b, in pixels of a.
+    """Return the box (left, top, right, bottom) in raster a where the bounding boxes of both solid areas overlap.
 
     a, b: RASTER rows; dx, dy [px]: position of b's top left corner in a.
     """
@@ -245,9 +245,9 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
     """Return a row of raster A that contains a pixel shared with raster B, or -1 if they share none.
 
-    Both rasters are one word wide. row_a, row_b: index in `words` of the first word of each raster; box_a, box_b: solid
-    bounds (left, top, right, bottom) of each raster; dx, dy [px]: position of B's top left corner in A; guess: row of A
-    that is tested first. O(1) if this row contains a shared pixel, else O(rows).
+    Both rasters are one word wide. row_a, row_b: index in `words` of the first word of each raster; box_a, box_b:
+    bounding box (left, top, right, bottom) of each raster's solid pixels; dx, dy [px]: position of B's top left corner
+    in A; guess: row of A that is tested first. O(1) if this row contains a shared pixel, else O(rows).
     """
     left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
@@ -269,8 +269,8 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, each one word wide.
 
     area: number of shared pixels; x, y: column and row in A; difference [px2]: the area shared with B moved one pixel
-    to the left, minus that with B moved one pixel to the right. The solid bounds of A and B must overlap. Arguments as
-    in line_shared. O(rows).
+    to the left, minus that with B moved one pixel to the right. The bounding boxes of the solid pixels of A and B must
+    overlap. Arguments as in line_shared. O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)

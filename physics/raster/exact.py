@@ -104,11 +104,11 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine, margin):
-    """Return the box (left, top, right, bottom) of B's pixels that may overlap the solid bounds of mask A.
+    """Return the box (left, top, right, bottom) of B's pixels that may overlap the bounding box of A's solid pixels.
 
     The box is in B's raster; right and bottom are exclusive. a, b: RASTER rows; u, v [px]: top left corner of B's
     raster in A's raster; cosine, sine: cosine and sine of B's angle in A's raster; margin [px]: enlargement of A's
-    bounds.
+    bounding box.
     """
     half_x, half_y = 0.5 * (a.set_right - a.set_left) + margin, 0.5 * (a.set_bottom - a.set_top) + margin
     dx, dy = a.set_left - margin + half_x - u, a.set_top - margin + half_y - v
@@ -138,10 +138,11 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """Return (first, last + 1) of the columns in a row of mask B whose pixel centres are in the solid bounds of A.
+    """Return (first, last + 1): the columns in a row of mask B whose pixel centres may overlap mask A.
 
-    a: RASTER row of A; left, right: range of tested columns, right exclusive; x, y [px]: centre of the pixel in column
-    0, in A's raster; cosine, sine: direction of the row in A's raster; margin [px]: enlargement of A's bounds.
+    These are the centres in the bounding box of A's solid pixels, enlarged by `margin` [px]. a: RASTER row of A; left,
+    right: range of tested columns, right exclusive; x, y [px]: centre of the pixel in column 0, in A's raster; cosine,
+    sine: direction of the row in A's raster.
     """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
@@ -171,7 +172,7 @@ def square_under(words, a, x, y, cosine, sine, near):
 def first_upright(pair, u, v):
     """Return the result of first_squares for two masks at equal angles, by AND of whole words. O(words).
 
-    A pixel of one mask overlaps up to four pixels of the other mask, so up to four offsets in whole pixels are tested.
+    A pixel of one mask overlaps up to four pixels of the other mask. So up to four offsets in whole pixels are tested.
     pair, u, v: see first_squares.
     """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])

@@ -360,7 +360,10 @@ class PixelTiles:
         return picked
 
     def node_at(self, tile: int, first: int) -> int:
-        """Return the index of the node that contains a solid pixel of a tile. first: row * 64 + column of the pixel."""
+        """Return the index of the node (connected component of a tile) that contains a solid pixel of a tile.
+
+        tile: number of the tile; first: row * 64 + column of the pixel.
+        """
         begin, end = self.starts[tile : tile + 2].tolist()
         if end - begin == 1:
             return begin

@@ -126,8 +126,8 @@ def checked_shape(name: str, value: Any) -> Shape:
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
     """Return `pose` as (x, y, angle) [px, px, rad] if the shape can have this pose, else raise an error.
 
-    shape_name, pose_name: names of the two arguments, for messages. Raises TypeError if `shape` is not a shape,
-    TypeError or ValueError if `pose` is not a pose, and ValueError if the shape cannot have the pose's angle.
+    shape_name, pose_name: names of the two arguments, for messages. Raises TypeError if `shape` is not a shape, and
+    TypeError or ValueError if `pose` is not a pose. Raises ValueError if the shape cannot have the pose's angle.
     """
     checked_shape(shape_name, shape)
     found = checks.pose(pose_name, pose)

@@ -106,8 +106,8 @@ class Library:
     def may_be_half_unused(self, shapes: int) -> bool:
         """Return whether half of the geometry may be unused, so that copying the used half is worth the time.
 
-        This is the case if more SHAPE rows were removed than there are now, or if the size has more than doubled since
-        the last copy. Both limits are raised by a small constant. shapes: number of SHAPE rows.
+        This is the case if more SHAPE rows were removed than now exist. It is also the case if the size has more than
+        doubled since the last copy. Both limits are raised by a small constant. shapes: number of SHAPE rows.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
@@ -150,8 +150,8 @@ class Library:
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Add the geometry of a shape if it is not stored yet. Return (kind, geometry row, wrapped kind).
 
-        The geometry row is -1 for a circle, which needs no geometry. The wrapped kind is the kind of the shape inside a
-        Bounds, and -1 for any other shape.
+        The geometry row is the row number of the geometry in the table for its kind, or -1 for a circle, which needs no
+        geometry. The wrapped kind is the kind of the shape inside a Bounds, and -1 for any other shape.
         """
         inner = shape._inner.bare
         row = -1 if isinstance(inner, Circle) else self._row_of(inner)
@@ -309,10 +309,11 @@ class Library:
         return row
 
     def _add_exact(self, shape):
-        """Add the data of a mask for exact poses: its hull, for a tight AABB, and with snap=False also its halo words.
+        """Add the data of a mask for tests at exact poses: its convex hull, and its halo if snap is False.
 
-        For the halo see raster/exact.py. Return the values that the RASTER row at angle 0 holds: (first word of the
-        halo or -1, words per row, first corner of the hull, number of corners).
+        The hull gives a tight AABB. The halo consists of the solid pixels and their neighbours, see raster/exact.py.
+        Return the values that the RASTER row at angle 0 holds: (first word of the halo or -1, words per row, first
+        corner of the hull, number of corners).
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
@@ -426,7 +427,7 @@ def _hull_of(shape):
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
     """Write the columns raster, left and top of masks for the present poses of their bodies. Add missing rasters.
 
-    rows: indices of SHAPE rows; only masks with the role PIXELS and snap=True are written. A mask is skipped if its
+    rows: indices of SHAPE rows; only masks with role = PIXELS and snap = True are written. A mask is skipped if its
     body is beyond POSITION_LIMIT.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
@@ -435,7 +436,7 @@ def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: n
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
     """Write the columns raster, left and top of masks for a picture at the present poses. Add missing rasters.
 
-    rows: indices of SHAPE rows; only masks with the role PIXELS or with snap=False are written.
+    rows: indices of SHAPE rows; only masks with role = PIXELS or snap = False are written.
     """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)

@@ -368,7 +368,7 @@ class PixelMask(Shape):
         """Convex shapes in body space whose union has the mask's outline; () for a mask without solid pixels.
 
         Contact response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
-        `smooth` px of the pixels' edges, and each point of these edges is within smooth + 0.21 px of the outline. With
+        `smooth` px of the pixels' edges. Each point of these edges is within smooth + 0.21 px of the outline. With
         smooth = 0 the outline is the pixels' edges. Separate pieces and holes are kept. Centres of solid pixels are
         inside, centres of clear pixels outside. A corner between two straight rows of pixel edges, both of 3 px or
         more, stays sharp. A full rectangle becomes a box. The shapes share sides, but no area.

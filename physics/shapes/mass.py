@@ -239,8 +239,8 @@ def _near(figures):
 def overlap(a: Hull, b: Hull) -> bool:
     """Return whether two rounded hulls share area, by the separating axis theorem.
 
-    The tested axes are the normals of all sides and, because of the rounding, the lines from each corner of one hull to
-    each corner of the other.
+    The tested axes are the normals of all sides. Because of the rounding, the lines from each corner of one hull to
+    each corner of the other hull are also tested.
     """
     first, second = np.array(a.corners), np.array(b.corners)
     reach = a.radius + b.radius
