@@ -570,7 +570,10 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
 
 @inlined
 def aabbs_near(batch, pair):
-    """Return whether the AABBs of two shapes are at most batch.margin [px] apart along both axes."""
+    """Return whether the AABBs of candidate number `pair` are at most batch.margin [px] apart along both axes.
+
+    batch: input of the pass, a manifold.Batch.
+    """
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]
     m = batch.margin
@@ -579,9 +582,9 @@ def aabbs_near(batch, pair):
 
 @inlined
 def collide_aabb_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two AABBs (Bounds). Return the new number of contacts.
+    """Append the contact of candidate number `pair`, two AABBs (shapes of type Bounds).
 
-    Arguments: see manifold.make_pass.
+    Return the new number of contacts. Arguments: see manifold.make_pass.
     """
     shapes, candidates, manifold = batch.shapes, batch.candidates, workspace.points
     row_a = candidates[pair, 0]
