@@ -501,7 +501,7 @@ def same_side(a, b):
 def segment_distance(a, b):
     """Return the distance [px] of two line segments; 0 if they cross. a, b (2, 2) [px]: ends of the segments.
 
-    The separating axis test needs this distance, because face normals cannot separate two segments on one line.
+    It supplements the separating axis test, whose face normals cannot separate two segments on one line.
     """
     if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0

@@ -36,10 +36,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Return the unit vector from the centre of A's solid pixels to the centre of B's; (1, 0) if the centres coincide.
+    """Return the unit vector from the centre of A's solid pixels to that of B's solid pixels; (1, 0) if they coincide.
 
-    Each centre is the centre of the bounding box of the solid pixels. a, b: RASTER rows; dx, dy [px]: offset of B's top
-    left corner from A's.
+    The centres are those of the bounding boxes of the solid pixels. a, b: RASTER rows; dx, dy [px]: offset of B's top
+    left corner from A's top left corner.
     """
     x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
     y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)

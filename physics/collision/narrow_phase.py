@@ -506,8 +506,8 @@ GRAZE = 1.5  # Batch.graze, in slops; more than the one slop by which a resting 
 def detect(state: StepState) -> np.ndarray:
     """Return the CONTACT rows at the present poses, with approach speeds.
 
-    Before the call, state.contact_rows holds the contacts of the last step. In worlds with contact response, pairs with
-    sensors are omitted, because the stage `sense` tests them at the final poses.
+    state.contact_rows must hold the contacts of the last step. In worlds with contact response, pairs with sensors are
+    omitted, because the stage `sense` tests them at the final poses.
     """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow

@@ -198,7 +198,8 @@ def turn_beyond(k, step, count, closed, vertices):
 def kind_of_line(k, count, closed, vertices):
     """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE for a very short line, else STRAIGHT_LINE.
 
-    count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX rows.
+    count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX rows, the starts of the
+    lines.
     """
     line = vertices[k]
     if line.broken:
@@ -380,9 +381,10 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the candidate corners (PLACE rows) of a curve between two vertices. Return the number of PLACE rows.
+    """Write the candidate corners (PLACE rows) for the lines along a curve. Return the number of PLACE rows.
 
-    first, last: indices of the vertices; curve: Curve; path: the Path; workspace: its runs and scratch arrays (Lines).
+    first, last: indices of the vertices at the curve's ends; curve: Curve; path: the Path; workspace: its runs and
+    scratch arrays (Lines).
     """
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
@@ -412,8 +414,9 @@ def put_curve(first, last, curve, path, workspace):
 def widest_fit(first, length, count, path, vertices):
     """Return the number of pixel edges, at most FIT, that a fit of a curve may use on either side of a point.
 
-    The number is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: index of the curve's
-    first line; length: number of the curve's lines; count: number of lines of the path; vertices: VERTEX rows.
+    It is small enough that directions within a fit differ by at most 2 FIT_TURN. first: index of the curve's first
+    line; length: number of the curve's lines; count: number of lines of the path; vertices: VERTEX rows, the starts of
+    the lines.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -473,7 +476,8 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 
     No point is added if the curve is too narrow for a fit, or if no lines along it are found. first: index of the
     vertex at which the curve starts; length: number of lines of the path that the curve replaces; count: number of
-    lines of the path; path: Path; n: number of points before; points_out: POINT rows; workspace: Lines.
+    lines of the path; path: the Path; n: number of points before; points_out: POINT rows; workspace: scratch arrays
+    (Lines).
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:
@@ -513,8 +517,8 @@ def lay_lines(found, path, workspace, n, points_out):
     """Append the points of the outline along a path: its straight lines, and lines recomputed along curves.
 
     Return the new number of points. For a closed path the last point, equal to the first, is omitted. found: number of
-    entries of workspace.chain, which lists the ends of the straight lines; path: Path; n: number of points before;
-    points_out: POINT rows; workspace: Lines.
+    entries of workspace.chain, which lists the ends of the straight lines; path: the Path; n: number of points before;
+    points_out: POINT rows; workspace: scratch arrays (Lines).
     """
     vertices = workspace.vertices
     count = read_vertices(found, path, workspace)

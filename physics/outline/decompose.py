@@ -659,7 +659,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return two corners (indices) of a ring; a short cut between them splits the ring into parts of similar size.
+    """Return two corners (indices) between which a short cut splits a ring into parts of similar size.
 
     The cut starts at a reflex corner. sides: the Ring.
     """

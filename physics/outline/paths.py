@@ -60,9 +60,9 @@ def down_of(direction):
 
 @subkernel
 def is_solid(pixels, x, y, quadrant):
-    """Return whether a pixel beside corner (x, y) of the pixel grid is solid.
+    """Return whether one of the four pixels at corner (x, y) of the pixel grid is solid.
 
-    quadrant: which of the four pixels at the corner, clockwise on the screen from the lower right one, modulo 4.
+    quadrant: the pixel: 0 lower right, 1 lower left, 2 upper left, 3 upper right (modulo 4).
     """
     q = quadrant & 3
     return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
@@ -70,7 +70,11 @@ def is_solid(pixels, x, y, quadrant):
 
 @subkernel
 def is_own(window, x, y, quadrant):
-    """Return whether a pixel beside corner (x, y) of the pixel grid belongs to the tile. quadrant: as in is_solid."""
+    """Return whether one of the four pixels at corner (x, y) of the pixel grid belongs to the tile.
+
+    quadrant: the pixel: 0 lower right, 1 lower left, 2 upper left, 3 upper right (modulo 4). window: pixels of the tile
+    and settings.
+    """
     q = quadrant & 3
     column = x - (1 if q == 1 or q == 2 else 0)
     row = y - (1 if q >= 2 else 0)

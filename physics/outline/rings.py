@@ -204,7 +204,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut that side k belongs to, so that the two pieces beside it become one. sides_inout: SIDE rows."""
+    """Remove the cut that side k belongs to, so that the two pieces on its sides become one. sides_inout: SIDE rows."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous

@@ -74,8 +74,8 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 def find_seams(parts, angles_out, seams_out):
     """Write the interior angle [rad] at each corner of a tile's parts, and whether the corner is a seam.
 
-    A seam is a corner between an inner side and a side on the outline. parts: TileParts; angles_out (n,) float64;
-    seams_out (n,) bool.
+    A seam is a corner between an inner side (shared by two parts) and a side on the outline. parts: TileParts;
+    angles_out (n,) float64; seams_out (n,) bool.
     """
     corners = parts.corners
     inner = parts.inner
@@ -156,7 +156,7 @@ def mark_moved(before, after, place, moved_out):
 
 @subkernel
 def seam_turn(angle):
-    """Return the turn [rad] of the outline at a corner where the angles of all parts sum to `angle` [rad].
+    """Return the turn [rad] of the outline at a corner where the interior angles of all parts sum to `angle` [rad].
 
     The result is COVERED if the outline has no convex corner there.
     """
@@ -200,10 +200,11 @@ def first_of(around, number):
 def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
-    Only the turns at seams (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus
-    the sum of the interior angles of all parts with this corner. The result is COVERED instead if the sum is at least
-    HALF_TURN, or if an earlier part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around:
-    see inner_bits; place: (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
+    A seam is a corner between an inner side (shared by two parts) and a side on the outline. Only turns at seams
+    (known.seams) are computed; at other corners pi is written. At a seam, the turn is pi minus the sum of the interior
+    angles of all parts with this corner. COVERED is written instead if the sum is at least HALF_TURN, or if an earlier
+    part has a seam at the corner. corners (n, 2) [px]: corners of the parts; known, around: see inner_bits; place:
+    (index of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -285,10 +286,11 @@ def survey_tile(parts, box, number, origin, survey_out):
 def tell_inner(parts, known, around, place, turns_out, inner_out):
     """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
-    Collinear corners are ignored: adjacent collinear sides form one edge, which is inner if all these sides are inner.
-    A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part. parts:
-    TileParts; known, around: see inner_bits; place: (index of the tile, tiles per row); turns_out (n,): see
-    cover_corners; inner_out (parts,) int64: the flags.
+    A side shared by two parts is inner. Collinear corners are ignored: adjacent collinear sides form one edge, which is
+    inner if all these sides are inner. A corner between two inner sides is covered; for other corners see
+    cover_corners. A corner is blunt if the outline turns less there than the part. parts: TileParts; known, around: see
+    inner_bits; place: (index of the tile, tiles per row); turns_out (n,): see cover_corners; inner_out (parts,) int64:
+    the flags.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

@@ -285,12 +285,13 @@ def aside(window, runs, count, k, distance):
 
 @subkernel
 def crossing(window, runs, count, at, after):
-    """Return the point where the outline crosses the tile's border near a corner of a path.
+    """Return the point where the outline crosses the tile's border near a corner of a path of pixel edges.
 
-    The result is (position along the path, x offset, y offset from the path) [px]. runs: RUN rows, of which the first
-    `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
-    after: used only if the corner is also a corner of the tile: True to move the crossing along the run that starts at
-    the corner, False along the run that ends there; window: pixels of the tile and settings, a paths.Window.
+    The result is (position along the path, x offset, y offset from the path) [px]. runs: RUN rows (straight rows of
+    pixel edges), of which the first `count` are the path, with SEEN edges on either side of the corner; at: number of
+    pixel edges before the corner. after: used only if the corner is also a corner of the tile: True to move the
+    crossing along the run that starts at the corner, False along the run that ends there; window: pixels of the tile
+    and settings, a paths.Window.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -505,8 +506,8 @@ def add_at_corner(window, x, y, workspace):
 def find_paths(window, workspace):
     """Find all pieces of the outline in a tile. Return whether the lines of each piece were found.
 
-    window: Window; workspace: Paths, which receives the pieces. The time is linear in pixels and corners, except for
-    the line search.
+    window: pixels of the tile and settings, a paths.Window; workspace: Paths, which receives the pieces. The time is
+    linear in pixels and corners, except for the search of lines.
     """
     low, high = window.low, window.high
     workspace.counts[0] = 0

@@ -84,8 +84,8 @@ def polygon_mass(points: Corners, density: float) -> Mass:
 def rounded_mass(points: Corners, radius: float, density: float) -> Mass:
     """Return the Mass of a convex polygon rounded by a radius [px].
 
-    The Mass is the sum of the polygon, a rectangle along each side, and a sector at each corner. points (n, 2) [px]:
-    corners, clockwise on the screen; density [mass per px2].
+    The Masses of the polygon, of a rectangle along each side, and of a sector at each corner are added. points (n, 2)
+    [px]: corners, clockwise on the screen; density [mass per px2].
     """
     parts = [polygon_mass(points, density)]
     count = len(points)

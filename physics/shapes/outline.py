@@ -246,8 +246,8 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 def _placed(part, outline_turns, origin):
     """Return a Part in raster pixels as an OutlinePart in body space, with collinear sides merged.
 
-    A merged side is inner (not on the outline) if all of the sides merged into it are inner. outline_turns [rad]: turns
-    of the outline at the corners, see corner_turns; origin [px]: origin of body space in the raster.
+    A merged side is inner (not on the outline) if all sides merged into it are inner. outline_turns [rad]: turns of the
+    outline at the corners, see corner_turns; origin [px]: origin of body space in the raster.
     """
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)

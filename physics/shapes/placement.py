@@ -441,9 +441,10 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of shapes at their bodies' poses; for masks with snap=True also raster, left and top.
+    """Write the tight AABBs of shapes at their bodies' poses. For masks with snap=True also write raster, left and top.
 
-    rows: indices of SHAPE rows; shapes_inout: SHAPE table. O(rows).
+    raster: row number of the mask's raster; left, top: pixel column and row of its top left corner. rows: indices of
+    SHAPE rows; shapes_inout: SHAPE table. O(rows).
     """
     polygons = geometry.polygons
     table = geometry.corners

@@ -156,7 +156,7 @@ def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Return Parts with these columns and with the AABBs computed from them. For shapes and units see Parts."""
+    """Return Parts with the given columns, and with AABBs computed from them. For shapes and units see Parts."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)

@@ -299,7 +299,7 @@ class TileGrid(Shape):
 
     @cached_property
     def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
-        """The tiles as (rectangles of solid cells, [row, column] of each slope, rectangles of one-way cells).
+        """Rectangles that cover the tiles: (solid rectangles, [row, column] of each slope, one-way rectangles).
 
         A rectangle is (left, top, right, bottom) in cells, right and bottom exclusive.
         """
