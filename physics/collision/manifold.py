@@ -403,13 +403,13 @@ def drop_empty(count, manifolds_inout):
 
 @subkernel
 def is_before(contact, shape_a, shape_b):
-    """Return whether a CONTACT row sorts before the rows of the shape pair (shape_a, shape_b), which are shape ids."""
+    """Return whether a CONTACT row sorts before the rows of the pair of shapes with the ids shape_a and shape_b."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
 
 
 @subkernel
 def is_of(contact, shape_a, shape_b):
-    """Return whether a CONTACT row belongs to the shape pair (shape_a, shape_b), which are shape ids."""
+    """Return whether a CONTACT row belongs to the pair of shapes with the ids shape_a and shape_b."""
     return contact.shape_a == shape_a and contact.shape_b == shape_b
 
 

@@ -554,9 +554,9 @@ def collide_mask_rounded(raster, hull, depths_out):
     """Collide a PlacedRaster with a rounded Hull of two or more corners.
 
     Return (area, nx, ny, x, y, separation, feature). Candidates for the normal are the inverted face normals, and the
-    direction from the centroid of the overlapping pixels to the hull's core. The one with the shortest move that clears
-    the pixels is used. The separation is minus the length of this move [px]. Other values as in collide_mask_circle.
-    O(pixels in the hull's AABB · corners). depths_out (16,): scratch.
+    direction from the centroid of the overlapping pixels to the hull's core. The candidate with the shortest move that
+    clears the pixels is used. The separation is minus the length of this move [px]. Other values as in
+    collide_mask_circle. O(pixels in the hull's AABB · corners). depths_out (16,): scratch.
     """
     corners = hull.corners
     count = hull.count

@@ -564,7 +564,7 @@ def lay_lines(found, path, workspace, n, points_out):
 def lines_of_loop(path, workspace, points_out):
     """Write the points of the outline along a closed path. Return the number of points; 0 if no lines were found.
 
-    path: Path; workspace: Lines, which holds the path's runs; points_out: POINT rows.
+    path: the Path; workspace: the path's runs and scratch arrays (Lines); points_out: POINT rows.
     """
     around, anchor = put_loop(workspace.runs, path.count, path.cracks, workspace.places)
     found = cheapest_loop(around, anchor, path.reach, workspace.places, workspace.chain)

@@ -143,8 +143,8 @@ def backward(window, x, y, direction):
 def walked_back(window, x, y, direction, cracks):
     """Return (x, y, direction) of a path at the corner that is `cracks` pixel edges before corner (x, y).
 
-    direction: the direction in which the path leaves the corner; the returned direction is that at the returned corner.
-    window: pixels of the tile and settings.
+    direction: the direction in which the path leaves corner (x, y); the returned direction is the one in which it
+    leaves the returned corner. window: pixels of the tile and settings.
     """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)

@@ -117,8 +117,8 @@ CLOSER = 40  # number of times that the step between directions is halved around
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
     """Return (a, b, radius) [px] of a capsule of small area around a convex hull; a equals b for a circle.
 
-    a, b: ends of the capsule's axis. Many directions of the axis are tried, and the one with the least area is used.
-    The radius is half the hull's width across the axis. hull (n, 2) [px]: corners of the hull.
+    a, b: ends of the capsule's axis. Many directions of the axis are tried, and the capsule with the least area is
+    returned. The radius is half the hull's width across the axis. hull (n, 2) [px]: corners of the hull.
     """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])

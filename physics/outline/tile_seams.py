@@ -119,7 +119,7 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag the tiles with a corner on their border that is a row of `mine` (n, 5), but not of `others` (m, 5).
+    """Flag each tile whose border has a corner that is listed in `mine` (n, 5), but not in `others` (m, 5).
 
     mine, others: corners on the border of the tile at `place`, in the format of Survey.meetings; place: (left, top,
     size) [px] of this tile; moved_out (9,) bool: flags of the tile and its 8 neighbours, row by row. O(n m).
@@ -145,7 +145,7 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag the tiles with a corner on their border that is in only one of the lists `before` (n, 5) and `after` (m, 5).
+    """Flag each tile whose border has a corner that is listed in only one of `before` (n, 5) and `after` (m, 5).
 
     before, after: corners on the border of the tile at `place`, in the format of Survey.meetings; place: (left, top,
     size) [px] of this tile; moved_out (9,) bool: flags of the tile and its 8 neighbours, row by row. O(n m).

@@ -400,7 +400,7 @@ def put_points(window, found, path, workspace):
     """Append the lines found along a path as a piece of the outline (PIECE row) with its points (POINT rows).
 
     Return whether a piece was appended: False if `found` is 0. found: number of line ends in workspace.lines.chain, see
-    paths.cheapest; path: Path; workspace: Paths; window: pixels of the tile and settings, a paths.Window.
+    paths.cheapest; path: the Path; workspace: Paths; window: pixels of the tile and settings, a paths.Window.
     """
     if found == 0:
         return False

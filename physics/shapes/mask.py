@@ -104,7 +104,7 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> PixelMask:
-        """Return a copy of the mask with its own material, filter and sensor. They are used instead of the body's.
+        """Return a copy of the mask with its own material, filter and sensor, used instead of the body's values.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
         one_way: whether bodies pass through the mask from below; None: as in this mask.

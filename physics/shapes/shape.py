@@ -331,7 +331,7 @@ class Shape:
         """
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return a copy of the shape with its own material, filter and sensor. They are used instead of the body's.
+        """Return a copy of the shape with its own material, filter and sensor, used instead of the body's values.
 
         material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
 
