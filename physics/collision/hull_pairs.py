@@ -28,6 +28,7 @@ from physics.collision.manifold import (
     add_manifold,
     add_point,
     add_points,
+    boxes_apart,
     center_velocity,
     circle_at,
     closing_speed_bound,
@@ -570,14 +571,9 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
 
 @inlined
 def aabbs_near(batch, pair):
-    """Return whether the AABBs of candidate number `pair` are at most batch.margin [px] apart along both axes.
-
-    batch: input of the pass, a manifold.Batch.
-    """
-    a = batch.shapes[batch.candidates[pair, 0]]
-    b = batch.shapes[batch.candidates[pair, 1]]
-    m = batch.margin
-    return (a.min_x - m <= b.max_x) & (b.min_x - m <= a.max_x) & (a.min_y - m <= b.max_y) & (b.min_y - m <= a.max_y)
+    """Return whether two AABBs are at most batch.margin [px] apart along each axis. pair: index of the candidate."""
+    shapes, candidates = batch.shapes, batch.candidates
+    return not boxes_apart(shapes[candidates[pair, 0]], shapes[candidates[pair, 1]], batch.margin)
 
 
 @inlined

@@ -252,6 +252,17 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
     return found
 
 
+@inlined
+def boxes_apart(a, b, margin):
+    """Return whether the AABBs of two SHAPE rows are farther apart than `margin` [px] along an axis."""
+    return (
+        (a.min_x - margin > b.max_x)
+        | (b.min_x - margin > a.max_x)
+        | (a.min_y - margin > b.max_y)
+        | (b.min_y - margin > a.max_y)
+    )
+
+
 @subkernel
 def circle_at(bodies, shapes, row):
     """Return (x, y, radius) [px] of a CIRCLE shape in the world. row: row number in SHAPE.

@@ -25,6 +25,7 @@ from physics.collision.manifold import (
     SURFACE_ANY,
     Batch,
     add_manifold,
+    boxes_apart,
     center_velocity,
     closing_speed_bound,
     empty_hulls,
@@ -169,17 +170,6 @@ def as_snapped(kind, a, b):
     if kind == MASKS:
         return kind if a.snap and b.snap else MASKS_EXACT
     return kind
-
-
-@inlined
-def boxes_apart(a, b, margin):
-    """Return whether the AABBs of two SHAPE rows are farther apart than `margin` [px] along an axis."""
-    return (
-        a.min_x - margin > b.max_x
-        or b.min_x - margin > a.max_x
-        or a.min_y - margin > b.max_y
-        or b.min_y - margin > a.max_y
-    )
 
 
 @inlined

@@ -174,13 +174,13 @@ def kept_pair(shape_a: Shape, shape_b: Shape) -> KeptPair:
 
 # Arguments of a pass over one pair; the pass only reads them.
 PAIRS = {False: np.array([[0, 1]], np.int64), True: np.array([[1, 0]], np.int64)}
-KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS, AABBS)}
 HULL_PASSES = {
     CIRCLES: collide_circle_pairs,
     POLYGON_CIRCLE: collide_polygon_circle_pairs,
     POLYGONS: collide_polygon_pairs,
     AABBS: collide_aabb_pairs,
 }
+KINDS = {kind: np.array([kind], np.int64) for kind in HULL_PASSES}
 NAMES = CONTACT.names or ()
 
 
