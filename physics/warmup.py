@@ -21,6 +21,7 @@ from physics.shapes.kinds import Bounds
 from physics.shapes.mask import PixelMask
 from physics.shapes.outline import outline_of
 from physics.shapes.values import Capsule, Chain, Circle, Polygon, TileGrid
+from physics.tables.contact import with_rows
 from physics.tables.table import rows_of
 from physics.world import World
 
@@ -178,6 +179,7 @@ def _small_world(effects, solver, strategy, pair):
         rows_of(table, table["id"])  # World.rows calls rows_of once bodies were removed
     world.reported_rows()
     contacts_of(world.contact_rows)
+    with_rows(world.bodies, world.shapes, world.contact_rows)  # called by a change of shapes
     second.move_to((3, 2))
     second.velocity = 0.0, 0.0
     world.move([second], [(3, 2)])
@@ -230,7 +232,7 @@ def _rest(effects, solver):
 def _joints(effects, solver):
     """Step a world with a tree of joints, a slider with limits, a pulley and a gear, with each joint solver.
 
-    One joint breaks in the end.
+    One joint breaks. In the end a body falls asleep.
     """
     world = World(effects, solver=solver)
     if not world.stacks:
@@ -259,6 +261,12 @@ def _joints(effects, solver):
     chain[1].breaks = (1e-9, 1e-9)
     world.step()
     world.step()
+    if effects.sleeping:
+        if effects.gravity:
+            world.gravity = (0.0, 0.0)
+        world.add_body(Circle(4), position=(400.0, 0.0))  # falls asleep, whatever the joints do
+        for _ in range(int(2.0 * SLEEP_TIME / world.dt)):
+            world.step()
 
 
 def _carve(effects, solver):

@@ -254,12 +254,15 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
 
 @inlined
 def boxes_apart(a, b, margin):
-    """Return whether the AABBs of two SHAPE rows are farther apart than `margin` [px] along an axis."""
-    return (
-        (a.min_x - margin > b.max_x)
-        | (b.min_x - margin > a.max_x)
-        | (a.min_y - margin > b.max_y)
-        | (b.min_y - margin > a.max_y)
+    """Return whether the AABBs of two SHAPE rows are farther apart than `margin` [px] along an axis.
+
+    An AABB or a margin that is not a number counts as apart.
+    """
+    return not (
+        (a.min_x - margin <= b.max_x)
+        & (b.min_x - margin <= a.max_x)
+        & (a.min_y - margin <= b.max_y)
+        & (b.min_y - margin <= a.max_y)
     )
 
 

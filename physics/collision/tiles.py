@@ -263,8 +263,9 @@ def make_grid_pass(one_way: bool) -> Any:
         g = geometry.grids[s.geometry]
         min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
         travel = travel_of(batch, p, q)
-        dx = travel.time * travel.vx if o.kind != MASK else 0.0
-        dy = travel.time * travel.vy if o.kind != MASK else 0.0
+        moves = travel.time > 0.0 and o.kind != MASK  # the velocity of a body without a prediction may be infinite
+        dx = travel.time * travel.vx if moves else 0.0
+        dy = travel.time * travel.vy if moves else 0.0
         was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
         min_x, max_x = min_x + min(dx, 0.0), max_x + max(dx, 0.0)
         min_y, max_y = min_y + min(dy, 0.0), max_y + max(dy, 0.0)

@@ -187,7 +187,9 @@ def test_what_each_effect_costs_is_measured_while_the_panel_is_open(driver):
     assert all((each.kernels is not None) == physics.JIT for each in known)
     run.turns(1)
     assert ledger.process is None, "the process ends with its work"
-    declared = [row.label for row in effect_rows(run.screen.measuring) if row.on]
+    on = [row.label for row in effect_rows(run.screen.measuring) if row.on]
+    choices, declared = on[:3], on[3:]
+    assert choices == ["declared", "everything", "nothing"]
     assert declared == [plain_name(name) for name in run.screen.scene.effects.names()]
 
 
