@@ -615,6 +615,7 @@ class World(WorldState):
         name = checks.choice("joint_solver", name, joint.JOINT_SOLVERS)
         if name != self._joint_solver:
             self._joint_solver = name
+            self.bodies["reserve"] = 0.0  # energy that joints lost as they parted must not come back as they close
             sleep.wake_all(self)
 
     # --- queries: see queries/casts.py for details -------------------------------------------------------------------

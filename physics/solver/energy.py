@@ -240,6 +240,7 @@ def reset_balance(balance_out):
     e.anchored = False
     e.jointed = False
     e.driven = False
+    e.has_wide_gap = False
 
 
 @subkernel
@@ -363,6 +364,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
         root = balance_inout[parents[i]]
         root.jointed = root.jointed or motions[i].jointed
         root.driven = root.driven or motions[i].driven
+        root.has_wide_gap = root.has_wide_gap or motions[i].has_wide_gap
         e.along = energy_along(motions[i], e)
         root.load += norm(motions[i].acceleration_x, motions[i].acceleration_y) / motions[i].inverse_mass
         add_momentum(motions[i], e, root)
@@ -387,9 +389,12 @@ def draw_on_reserve(slop, balance_inout):
     regain SHARE_BACK of their energy, or the energy of a lift by a slop. Sets with joints may regain all of their
     reserve in one step, because light links under tension exchange much energy with the integrator's error. Work of
     surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
-    kinematic bodies keep all gains.
+    kinematic bodies keep all gains. A set with a joint whose anchors are far apart has no reserve: what it lost as the
+    anchors parted, or loses as they are drawn together, is no error of the integrator.
     """
     e = balance_inout
+    if e.has_wide_gap:
+        e.reserve = 0.0
     allowed = e.reserve
     if not e.jointed:
         allowed = min(allowed, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
@@ -402,6 +407,8 @@ def draw_on_reserve(slop, balance_inout):
     else:
         e.scale = scale_without(beyond, e.now - energy_in_common(e))
     e.reserve += max(-max(e.excess, gained), 0.0) - min(max(gained, 0.0), allowed)
+    if e.has_wide_gap:
+        e.reserve = 0.0
     return int(beyond > 0.0)
 
 

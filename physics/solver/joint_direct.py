@@ -7,8 +7,9 @@ joint_rows.py solve everything else before the trees: parts with a bounded force
 drop_meshes).
 
 Rigid parts have no spring. A velocity removes an error of position within the next substep, and the solve at the end of
-that substep removes this velocity again. A spring that the user has set is a compliance of its row (Catto, Soft
-Constraints, GDC 2011).
+that substep removes this velocity again. To close a wide gap, bodies would rotate so far that some of this velocity
+remained. Wide gaps are closed by pseudo-velocities instead, which move the bodies in this substep and are not part of
+their velocities. A spring that the user has set is a compliance of its row (Catto, Soft Constraints, GDC 2011).
 """
 
 from typing import NamedTuple
@@ -23,6 +24,7 @@ from physics.solver.joint_rows import (
     bounded,
     coordinate_of,
     has_spring,
+    has_wide_gap,
     holds_angle,
     holds_coordinate,
     holds_point,
@@ -44,11 +46,14 @@ from physics.solver.joint_schur import (
     SCHUR_ROW,
     Schur,
     aim_schur,
+    aim_schur_gaps,
     begin_schur,
     count_schur,
     list_schur,
+    mark_pushed_out,
     new_schur,
     solve_schur,
+    tree_of_joint,
 )
 from physics.solver.joint_trees import (
     JOINT_ROW,
@@ -56,7 +61,9 @@ from physics.solver.joint_trees import (
     Forest,
     build_forest,
     factor_trees,
+    move_by_pseudo_velocities,
     new_forest,
+    solve_pseudo_velocities,
     solve_trees,
     with_room,
 )
@@ -64,6 +71,7 @@ from physics.tables.joint import ANGLE, COUPLING, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
+MOST_PSEUDO_TURN = 0.1  # [rad] by which a pseudo-velocity rotates a body in a substep, at most
 # Rates at which bend() fades to 0: with the growth of an inertia by tension, and with the square of the rotation in a
 # substep [1/rad²]. In a closed mechanism it fades early: in a singular pose the corrections of different joints
 # contradict one another.
@@ -237,17 +245,17 @@ def bend(joint, a, b, h):
 
 
 @subkernel
-def write_targets(joint, rate, context, a, b, first, rows_inout):
+def write_targets(joint, rate, bends, context, a, b, first, rows_inout):
     """Write the target velocities of the rows of a joint.
 
     joint: JOINT row; rate [1/s]: fraction of the position errors to remove per second, 0 in the solve at the end of a
-    substep; context: see StepContext; a, b: MOTION rows; first: index of the joint's first row in rows_inout
-    (JOINT_ROW).
+    substep; bends: whether targets are corrected for rotating arms, see bend; context: see StepContext; a, b: MOTION
+    rows; first: index of the joint's first row in rows_inout (JOINT_ROW).
     """
     j = joint
     at = first
     h, most = context.h, context.push_speed
-    bend_x, bend_y = bend(j, a, b, h) if rate > 0.0 else (0.0, 0.0)
+    bend_x, bend_y = bend(j, a, b, h) if bends else (0.0, 0.0)
     if holds_point(j) and j.hold == PINNED:
         fast = rate * norm(j.apart_x, j.apart_y)
         slow = rate * context.push_speed / fast if fast > context.push_speed else rate
@@ -317,17 +325,64 @@ def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
 
 
 @subkernel
-def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
-    """Write the target velocities of the rows of all trees. O(order).
+def aim_trees(rows, order, biased, context, joints, motions, tree_rows_out):
+    """Write the target velocities of the rows of all trees. Return whether any joint has a wide gap. O(order).
 
-    rows, order: see JointSet; rate: see write_targets; context: see StepContext; joints, motions: all JOINT and MOTION
-    rows; tree_rows_out: JOINT_ROW rows.
+    rows, order: see JointSet; biased: see solve_all_trees; context: see StepContext; joints, motions: all JOINT and
+    MOTION rows; tree_rows_out: JOINT_ROW rows. A velocity does not close wide gaps, see close_gaps.
     """
+    any_wide = False
     for k in range(len(order)):
         j = joints[rows[order[k]]]
         if j.direct:
             a, b = motions[j.motion_a], motions[j.motion_b]
-            write_targets(j, rate, context, a, b, MOST_ROWS * order[k], tree_rows_out)
+            is_wide = biased and has_wide_gap(j, context.wide_gap)
+            any_wide = any_wide or is_wide
+            rate = context.inverse_h if biased and not is_wide else 0.0
+            write_targets(j, rate, rate > 0.0, context, a, b, MOST_ROWS * order[k], tree_rows_out)
+    return any_wide
+
+
+@subkernel
+def translate_open_trees(rows, order, context, joints, schur_inout, motions_inout):
+    """Mark the trees with wide gaps, and give the bodies of those that are open an infinite inertia. O(order).
+
+    The gaps of an open tree close without rotation: the moment arms stay, and with them the velocities that its joints
+    permit. With rotation, the light links of a chain that is nearly straight would turn by large angles. rows, order:
+    see JointSet; context: see StepContext; joints: all JOINT rows. schur_inout: see Schur; motions_inout: MOTION rows,
+    whose inertias add_inertia restores.
+    """
+    s = schur_inout
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        if j.direct and has_wide_gap(j, context.wide_gap):
+            t = s.trees[tree_of_joint(j, motions_inout, s)]
+            t.is_pushed, t.has_wide_gap = True, True
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        if j.direct and j.in_open_tree and s.trees[tree_of_joint(j, motions_inout, s)].has_wide_gap:
+            for side in range(2):
+                m = motions_inout[j.motion_a if side == 0 else j.motion_b]
+                if m.inverse_mass > 0.0:
+                    m.inverse_inertia = 0.0
+
+
+@subkernel
+def aim_gaps(rows, order, counts, context, joints, motions, tree_rows_out):
+    """Write the target pseudo-velocities of the rows of all trees: wide gaps close, all else stays as it is. O(order).
+
+    rows, order, counts: see JointSet; context: see StepContext; joints, motions: all JOINT and MOTION rows;
+    tree_rows_out: JOINT_ROW rows.
+    """
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        if j.direct:
+            first = MOST_ROWS * order[k]
+            rate = context.inverse_h if has_wide_gap(j, context.wide_gap) else 0.0
+            write_targets(j, rate, False, context, motions[j.motion_a], motions[j.motion_b], first, tree_rows_out)
+            for at in range(first, first + counts[order[k]]):
+                if tree_rows_out[at].compliance > 0.0:
+                    tree_rows_out[at].rhs = 0.0  # a spring
 
 
 @subkernel
@@ -404,19 +459,44 @@ def begin_substep(context, motions, joints_inout):
 
 @subkernel
 def solve_all_trees(biased, context, joints_inout, motions_inout):
-    """Solve all joints in trees exactly.
+    """Solve all joints in trees exactly. Return whether a joint has a wide gap, which close_gaps closes.
 
     biased: True to also remove errors of position, up to the greatest push-out speed; context: see StepContext;
     joints_inout: JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
+    any_wide = False
     if len(s.order) > 0:
-        aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, motions_inout, s.tree_rows)
+        any_wide = aim_trees(s.rows, s.order, biased, context, s.table, motions_inout, s.tree_rows)
         solve_trees(s.forest, s.tree_rows, motions_inout)
         if s.schur.counts[0] > 0:
             aim_schur(s.rows, biased, context, s.table, s.tree_rows, s.schur)
-            solve_schur(s.rows, s.forest, s.schur, s.table, s.tree_rows, motions_inout)
+            solve_schur(False, s.rows, s.forest, s.schur, s.table, s.tree_rows, motions_inout)
         collect_trees(s.rows, s.order, s.tree_rows, s.table)
+    return any_wide
+
+
+@subkernel
+def close_gaps(any_wide, context, joints_inout, motions_inout):
+    """Move the bodies of trees by pseudo-velocities that close wide gaps, and that keep the push-out within the joints.
+
+    It follows the push-out of contacts, whose pseudo-velocities it changes so that they neither part joints nor exceed
+    limits. Afterwards the trees must be factored again. any_wide: whether a joint has a wide gap; context: see
+    StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    """
+    s = joints_inout
+    if len(s.order) == 0 or not (mark_pushed_out(s.forest, motions_inout, s.schur) or any_wide):
+        return
+    if any_wide:
+        translate_open_trees(s.rows, s.order, context, s.table, s.schur, motions_inout)
+        begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.schur)
+        factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
+    aim_gaps(s.rows, s.order, s.counts, context, s.table, motions_inout, s.tree_rows)
+    solve_pseudo_velocities(context.push_speed, s.forest, s.tree_rows, motions_inout)
+    if s.schur.counts[0] > 0:
+        aim_schur_gaps(s.rows, context, s.table, motions_inout, s.tree_rows, s.schur)
+        solve_schur(True, s.rows, s.forest, s.schur, s.table, s.tree_rows, motions_inout)
+    move_by_pseudo_velocities(context.h, MOST_PSEUDO_TURN, s.forest, motions_inout)
 
 
 @subkernel
@@ -440,7 +520,7 @@ def start_joints(first, context, joints_inout, motions_inout):
     motions_inout: MOTION rows.
     """
     s = joints_inout
-    warm_joints(s.rows, first, s.table, motions_inout)
+    warm_joints(s.rows, first, context.wide_gap, s.table, motions_inout)
     if not first:
         sum_couplings(s.couplings, s.table)
     warm_couplings(s.couplings, s.table, motions_inout)

@@ -402,6 +402,23 @@ def is_coordinate_free(joint):
 
 
 @inlined
+def has_wide_gap(joint, wide_gap):
+    """Return whether the anchors of a joint are too far apart to be drawn together by a velocity.
+
+    joint: JOINT row, placed by place_joint; wide_gap [px]: see StepContext.
+    """
+    j = joint
+    error = 0.0
+    if holds_point(j) and j.hold == PINNED:
+        error = norm(j.apart_x, j.apart_y) if j.point_hertz == 0.0 else 0.0
+    elif holds_point(j):
+        error = abs(j.apart_y * j.nx - j.apart_x * j.ny)
+    if holds_coordinate(j) and j.coordinate != ANGLE and j.lower == j.upper:
+        error = max(error, abs(coordinate_of(j) - j.lower))
+    return error > wide_gap
+
+
+@inlined
 def has_limits(joint):
     """Return whether a joint's coordinate has limits and can move between them. False for gears and pulleys."""
     bounded_side = joint.lower > -math.inf or joint.upper < math.inf
@@ -636,18 +653,22 @@ def impulse_of(joint):
 
 
 @subkernel
-def warm_joints(rows, first, joints_inout, motions_inout):
+def warm_joints(rows, first, wide_gap, joints_inout, motions_inout):
     """Apply the impulses of the last substep (warm start). O(rows).
 
-    rows: indices of JOINT rows; first: True in the first substep of a step; motions_inout: MOTION rows. In the first
-    substep, the geometry of the joints is computed. In later substeps, the geometry is known from the end of the
-    previous substep, whose impulses are added to the totals of the step.
+    rows: indices of JOINT rows; first: True in the first substep of a step; wide_gap [px]: see StepContext;
+    motions_inout: MOTION rows. In the first substep, the geometry of the joints is computed, and wide gaps are noted.
+    In later substeps, the geometry is known from the end of the previous substep, whose impulses are added to the
+    totals of the step.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
         if first:
             place_joint(a, b, j)
+            if has_wide_gap(j, wide_gap):
+                a.has_wide_gap = True
+                b.has_wide_gap = True
         x, y, torque = impulse_of(j)
         if not first:
             j.total_x += x

@@ -26,7 +26,9 @@ from physics.solver.joint_trees import (
     gather_violations,
     has_infinite_mass,
     move_body,
+    move_pseudo,
     place_body,
+    place_pseudo,
     spread_impulses,
 )
 from physics.solver.motions import change_velocity
@@ -86,6 +88,8 @@ SCHUR_TREE = in_lines(
         ("motors", np.int32),  # … and motors
         ("anchors", np.int32),  # number of joints to bodies of infinite mass
         ("is_coupled", np.bool_),  # a gear or pulley acts on the tree
+        ("is_pushed", np.bool_),  # its bodies move by pseudo-velocities in the present substep …
+        ("has_wide_gap", np.bool_),  # … because of a wide gap, see joint_direct.close_gaps
         ("first", np.int32),  # index of its first row …
         ("count", np.int32),  # … and their number
         ("first_slot", np.int32),  # index of its first slot in Schur.slots …
@@ -361,6 +365,54 @@ def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
             r.low = -j.low if r.part == LOWER else -j.high
 
 
+@subkernel
+def mark_pushed_out(forest, motions, schur_inout):
+    """Mark the trees with a body that has a pseudo-velocity. Return whether there are any. O(bodies).
+
+    forest: see Forest; motions: MOTION rows. schur_inout: see Schur; the marks of wide gaps are cleared.
+    """
+    s = schur_inout
+    found = False
+    for slot in range(forest.sizes[0]):
+        root = s.trees[s.tree_of[slot]]
+        if s.tree_of[slot] == slot:
+            root.is_pushed, root.has_wide_gap = False, False
+        m = motions[forest.bodies[slot].motion]
+        if m.pseudo_vx != 0.0 or m.pseudo_vy != 0.0 or m.pseudo_w != 0.0:
+            root.is_pushed = True
+            found = True
+    return found
+
+
+@subkernel
+def aim_schur_gaps(rows, context, joints, motions, tree_rows_inout, schur_inout):
+    """Write the target pseudo-velocities of the Schur rows, and the bounds of their impulses. O(rows).
+
+    A limit holds for the sum of velocity and pseudo-velocity. Motors have no impulse. Bodies of infinite mass have no
+    pseudo-velocity, so their velocity is added to the targets. Arguments: see aim_schur; motions: MOTION rows.
+    """
+    s = schur_inout
+    for i in range(s.counts[0]):
+        r = s.rows[i]
+        j = joints[rows[r.joint]]
+        a, b = motions[r.motion_a], motions[r.motion_b]
+        of_a = r.ax * a.vx + r.ay * a.vy + r.aw * a.angular_velocity
+        of_b = r.bx * b.vx + r.by * b.vy + r.bw * b.angular_velocity
+        fixed = (of_a if r.slot_a < 0 else 0.0) + (of_b if r.slot_b < 0 else 0.0)
+        r.low, r.high = -math.inf, math.inf
+        if r.part < MOST_ROWS:
+            t = tree_rows_inout[MOST_ROWS * r.joint + r.part]
+            t.impulse = 0.0
+            r.rhs = t.rhs + fixed
+        elif r.part == MOTOR:
+            r.rhs, r.low, r.high, r.impulse = 0.0, 0.0, 0.0, 0.0
+        else:
+            gap = coordinate_of(j) - j.lower if r.part == LOWER else j.upper - coordinate_of(j)
+            most = context.push_turn if j.coordinate == ANGLE else context.push_speed
+            r.rhs = limit_target(gap, True, most, context.inverse_h) - (of_a + of_b) + fixed
+            r.low = 0.0
+
+
 @inlined
 def velocity_along(row, bodies, motions):
     """Return the velocity along a SCHUR_ROW: its Jacobian times the velocities of its bodies.
@@ -604,26 +656,40 @@ def pivot_rows(tree, motions, forest_inout, schur_inout):
 
 
 @subkernel
-def push_row(row, a_inout, b_inout):
-    """Apply the change of the impulse of a SCHUR_ROW to its bodies. a_inout, b_inout: MOTION rows."""
+def push_row(pseudo, row, a_inout, b_inout):
+    """Apply the change of the impulse of a SCHUR_ROW to its bodies. a_inout, b_inout: MOTION rows.
+
+    pseudo: whether it changes pseudo-velocities instead of velocities.
+    """
     r, a, b = row, a_inout, b_inout
     x = r.change
+    if pseudo:
+        a.pseudo_vx += a.inverse_mass * r.ax * x
+        a.pseudo_vy += a.inverse_mass * r.ay * x
+        a.pseudo_w += a.inverse_inertia * r.aw * x
+        b.pseudo_vx += b.inverse_mass * r.bx * x
+        b.pseudo_vy += b.inverse_mass * r.by * x
+        b.pseudo_w += b.inverse_inertia * r.bw * x
+        return
     change_velocity(a.inverse_mass * r.ax * x, a.inverse_mass * r.ay * x, a.inverse_inertia * r.aw * x, a)
     change_velocity(b.inverse_mass * r.bx * x, b.inverse_mass * r.by * x, b.inverse_inertia * r.bw * x, b)
 
 
 @subkernel
-def push_rows(rows, tree, schur, joints_inout, tree_rows_inout, motions_inout):
+def push_rows(pseudo, rows, tree, schur, joints_inout, tree_rows_inout, motions_inout):
     """Apply the impulse changes of a tree's Schur rows to the bodies, and add them to the impulses of the joints.
 
-    tree: SCHUR_TREE row; other arguments: see solve_schur.
+    pseudo: whether they change pseudo-velocities, and are not added; tree: SCHUR_TREE row; other arguments: see
+    solve_schur.
     """
     for i in range(tree.first, tree.first + tree.count):
         r = schur.rows[i]
         if r.change == 0.0:
             continue
         j = joints_inout[rows[r.joint]]
-        push_row(r, motions_inout[r.motion_a], motions_inout[r.motion_b])
+        push_row(pseudo, r, motions_inout[r.motion_a], motions_inout[r.motion_b])
+        if pseudo:
+            continue
         if r.part < MOST_ROWS:
             tree_rows_inout[MOST_ROWS * r.joint + r.part].impulse = r.change
         elif r.part == LOWER:
@@ -635,16 +701,19 @@ def push_rows(rows, tree, schur, joints_inout, tree_rows_inout, motions_inout):
 
 
 @subkernel
-def solve_tree_again(tree, slots, forest_inout, tree_rows_inout, motions_inout):
+def solve_tree_again(pseudo, tree, slots, forest_inout, tree_rows_inout, motions_inout):
     """Solve a tree a second time, and add the impulses to those of the first solve. O(slots of the tree).
 
-    tree: SCHUR_TREE row; slots: see Schur; tree_rows_inout: JOINT_ROW rows with the impulses of the first solve. In
-    rows with compliance these impulses change the target velocity.
+    pseudo: whether to solve for pseudo-velocities; tree: SCHUR_TREE row; slots: see Schur; tree_rows_inout: JOINT_ROW
+    rows with the impulses of the first solve. In rows with compliance these impulses change the target velocity.
     """
     f, last = forest_inout, tree.first_slot + tree.slots - 1
     for k in range(tree.first_slot, last + 1):
         body = f.bodies[slots[k]]
-        place_body(motions_inout[body.motion], body)
+        if pseudo:
+            place_pseudo(motions_inout[body.motion], body)
+        else:
+            place_body(motions_inout[body.motion], body)
         for r in range(body.count if body.parent >= 0 else 0):
             t = tree_rows_inout[MOST_ROWS * body.joint + r]
             t.rhs -= t.compliance * t.impulse
@@ -662,14 +731,19 @@ def solve_tree_again(tree, slots, forest_inout, tree_rows_inout, motions_inout):
             for r in range(body.count):
                 t = tree_rows_inout[MOST_ROWS * body.joint + r]
                 t.impulse += t.earlier
-        if not body.is_fixed:
+        if body.is_fixed:
+            continue
+        if pseudo:
+            move_pseudo(body, motions_inout[body.motion])
+        else:
             move_body(body, motions_inout[body.motion])
 
 
 @subkernel
-def solve_schur(rows, forest_inout, schur_inout, joints_inout, tree_rows_inout, motions_inout):
+def solve_schur(pseudo, rows, forest_inout, schur_inout, joints_inout, tree_rows_inout, motions_inout):
     """Solve the Schur rows together with their trees, after a solve of the trees alone.
 
+    pseudo: whether to solve for pseudo-velocities of pushed trees, after aim_schur_gaps; the impulses of joints stay;
     rows: indices of the JOINT rows of the group; forest_inout: after solve_trees; schur_inout: after aim_schur;
     joints_inout: all JOINT rows, of which the impulses of limits and motors change; tree_rows_inout: JOINT_ROW rows of
     the joints of `rows`; motions_inout: MOTION rows.
@@ -677,8 +751,8 @@ def solve_schur(rows, forest_inout, schur_inout, joints_inout, tree_rows_inout, 
     f, s = forest_inout, schur_inout
     for root in range(f.sizes[0]):
         tree = s.trees[root]
-        if tree.count == 0 or not begin_states(tree, f.bodies, motions_inout, s):
+        if tree.count == 0 or (pseudo and not tree.is_pushed) or not begin_states(tree, f.bodies, motions_inout, s):
             continue
         s.counts[2] += pivot_rows(tree, motions_inout, f, s)
-        push_rows(rows, tree, s, joints_inout, tree_rows_inout, motions_inout)
-        solve_tree_again(tree, s.slots, f, tree_rows_inout, motions_inout)
+        push_rows(pseudo, rows, tree, s, joints_inout, tree_rows_inout, motions_inout)
+        solve_tree_again(pseudo, tree, s.slots, f, tree_rows_inout, motions_inout)

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import inlined, kernel, subkernel
+from physics.math2d import norm, rotation_of
 from physics.tables.table import in_lines, join_trees, root_of, zeros_in_lines
 
 MOST_ROWS = 3  # rows of a joint: row r of joint j is JOINT_ROW 3 j + r
@@ -610,3 +611,78 @@ def solve_trees(
         body = f.bodies[slot]
         if not body.is_fixed:
             move_body(body, motions_inout[body.motion])
+
+
+# ---- pseudo-velocities -----------------------------------------------------------------------------------------------
+# Pseudo-velocities move bodies in a substep and are not part of their velocities. Bodies of infinite mass have none.
+
+
+@inlined
+def place_pseudo(motion, body_out):
+    """Copy the pseudo-velocity of a MOTION row to a TREE_BODY row, and set the impulse of the TREE_BODY row to 0."""
+    b, m = body_out, motion
+    b.vx, b.vy, b.w = m.pseudo_vx, m.pseudo_vy, m.pseudo_w
+    if b.is_fixed:
+        b.vx, b.vy, b.w = 0.0, 0.0, 0.0
+    b.fx, b.fy, b.fw = 0.0, 0.0, 0.0
+
+
+@inlined
+def move_pseudo(body, motion_inout):
+    """Copy the velocity of a TREE_BODY row to the pseudo-velocity of its MOTION row."""
+    motion_inout.pseudo_vx, motion_inout.pseudo_vy, motion_inout.pseudo_w = body.vx, body.vy, body.w
+
+
+@subkernel
+def solve_pseudo_velocities(push_speed, forest_inout, joint_rows_inout, motions_inout):
+    """Solve the joints of all trees for the pseudo-velocities of their bodies, as solve_trees does for velocities.
+
+    push_speed [px/s]: greatest speed at which contacts push a body out.
+    """
+    f = forest_inout
+    for slot in range(f.sizes[0]):
+        m = motions_inout[f.bodies[slot].motion]
+        fast = norm(m.pseudo_vx, m.pseudo_vy)
+        if fast > push_speed:
+            share = push_speed / fast
+            m.pseudo_vx, m.pseudo_vy, m.pseudo_w = share * m.pseudo_vx, share * m.pseudo_vy, share * m.pseudo_w
+        place_pseudo(m, f.bodies[slot])
+    sweep_trees(f.sizes[0], f, joint_rows_inout)
+    for slot in range(f.sizes[0]):
+        body = f.bodies[slot]
+        if not body.is_fixed:
+            move_pseudo(body, motions_inout[body.motion])
+
+
+@subkernel
+def move_by_pseudo_velocities(h, most_turn, forest_inout, motions_inout):
+    """Move the bodies of all trees by their pseudo-velocities over a substep of h [s], and reset these. O(bodies).
+
+    If a body of a tree would rotate by more than `most_turn` [rad], the pseudo-velocities of all bodies of the tree are
+    scaled by one factor, so that its joints are kept. forest_inout: Forest, whose impulses are scratch; motions_inout:
+    MOTION rows.
+    """
+    f = forest_inout
+    for slot in range(f.sizes[0]):
+        f.bodies[slot].fx = 0.0
+    for slot in range(f.sizes[0] - 1, -1, -1):
+        body = f.bodies[slot]
+        if not body.is_fixed:
+            body.fx = max(body.fx, abs(motions_inout[body.motion].pseudo_w))
+        if body.parent >= 0:
+            parent = f.bodies[body.parent]
+            parent.fx = max(parent.fx, body.fx)
+    for slot in range(f.sizes[0]):
+        body = f.bodies[slot]
+        if body.parent >= 0:
+            body.fx = f.bodies[body.parent].fx
+        if body.is_fixed:
+            continue
+        time = most_turn / body.fx if h * body.fx > most_turn else h
+        m = motions_inout[body.motion]
+        m.dx += time * m.pseudo_vx
+        m.dy += time * m.pseudo_vy
+        if m.pseudo_w != 0.0:
+            m.turn += time * m.pseudo_w
+            m.cosine, m.sine = rotation_of(m.turn)
+        m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0

@@ -49,6 +49,7 @@ def reset_motion(motion_out):
     m.jointed = False
     m.halves = False
     m.driven = False
+    m.has_wide_gap = False
     m.estimate = 0.0
     m.branching = False
     m.capped = False

@@ -27,6 +27,7 @@ from physics.solver.energy import limit_energy
 from physics.solver.joint_direct import (
     begin_substep,
     begin_trees,
+    close_gaps,
     end_joints,
     finish_joints,
     solve_all_trees,
@@ -399,7 +400,7 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
                 solve_once(True, context, joints_inout, motions_inout)
             solve_all(count, context, passes, motions_inout, blocks_inout)
         if joints:
-            solve_all_trees(True, context, joints_inout, motions_inout)
+            any_wide = solve_all_trees(True, context, joints_inout, motions_inout)
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
             for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -407,6 +408,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
                 c[at.PUSH_2 + lane] = 0.0
         for _ in range(PUSH_PASSES):
             push_out(count, context, passes.push_rate, motions_inout, blocks_inout)
+        if joints:
+            close_gaps(any_wide, context, joints_inout, motions_inout)
         positions(members, context.h, context.push_speed, motions_inout)
         move_kinematic(kinematic, context.h, motions_inout)
         if joints:

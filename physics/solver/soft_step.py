@@ -11,6 +11,7 @@ from physics.solver.energy import limit_energy
 from physics.solver.joint_direct import (
     begin_substep,
     begin_trees,
+    close_gaps,
     end_joints,
     finish_joints,
     solve_all_trees,
@@ -609,7 +610,8 @@ def make_substeps(
             for _ in range(iterations):
                 push_out(count, context, motions_inout, blocks_inout)
             if joints:
-                solve_all_trees(True, context, joints_inout, motions_inout)
+                any_wide = solve_all_trees(True, context, joints_inout, motions_inout)
+                close_gaps(any_wide, context, joints_inout, motions_inout)
             positions(members, h, context.push_speed, motions_inout)
             move_kinematic(kinematic, (n + 1) * h, motions_inout)
             if rotation:

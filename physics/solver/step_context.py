@@ -24,6 +24,10 @@ from physics.settings import (
 )
 
 NO_PRESS = 1e-9  # share of the accelerations below which their component along a normal is a rounding error
+# Gap of a joint of a tree above which pseudo-velocities close it, as a multiple of what the greatest push-out speed
+# closes in a substep. Energy that the joint lost does not come back meanwhile. Larger: closing gaps add energy.
+# Smaller: gaps of fast chains grow, because pseudo-velocities do not act on velocities.
+WIDE_GAP = 2.4
 DRIFT_SHARE = 0.02  # share of the tangential drift of a sticking contact that friction undoes in a step
 
 # ---- context ---------------------------------------------------------------------------------------------------------
@@ -54,6 +58,7 @@ class StepContext(NamedTuple):
     push_turn: float  # [rad/s] greatest angular speed that removes an error of an angle
     push_rate: float  # [1/s] separation speed of an unloaded contact per px of overlap beyond half a slop
     slop: float  # [px] overlap that is not removed
+    wide_gap: float  # [px] gap of a joint above which no velocity closes it, see WIDE_GAP
     deep_rate: float  # [1/s] greatest separation speed of a loaded contact per px of overlap; 0: no limit
     shallow_speed: float  # [px/s] least value of the limit by deep_rate
     spring: Softness  # for contacts between dynamic bodies
@@ -107,6 +112,7 @@ def context_of(
         # More substeps do not separate faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
         slop=tolerances.slop,
+        wide_gap=WIDE_GAP * tolerances.push_speed * min(h, slowest),
         deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if by_load else 0.0,
         shallow_speed=spring.bias_rate * tolerances.speculative,
         spring=spring,

@@ -201,6 +201,7 @@ MOTION = in_lines(
         ("is_character", np.bool_),  # the ground supports it, and it does not hold the ground down
         ("jointed", np.bool_),  # a joint acts on it
         ("driven", np.bool_),  # a joint with a motor, a spring or a kinematic body acts on it
+        ("has_wide_gap", np.bool_),  # the anchors of a joint are far apart, see joint_rows.has_wide_gap
         ("halves", np.bool_),  # it has rigid joints and no contact: half of its acceleration acts after it has moved
         ("inverse_mass", np.float64),
         ("inverse_inertia", np.float64),  # 0: infinite in this step
@@ -256,6 +257,7 @@ BALANCE = in_lines(
         ("suspect", np.bool_),  # its energy is compared with that of the bodies that it exchanged impulses with
         ("jointed", np.bool_),  # joints act on these bodies, …
         ("driven", np.bool_),  # … with motors, springs or kinematic bodies, which may give them energy
+        ("has_wide_gap", np.bool_),  # the anchors of a joint are far apart
         ("face_x", np.float64),  # the first normal of a contact of the set, see energy.note_face
         ("face_y", np.float64),
         ("oblique", np.bool_),  # see energy.note_face

@@ -85,9 +85,9 @@ TREES = (
     Row(
         "N6",
         "a chain of 12 links and a ball of 1 to 1e6 of them, let go upwards: it falls slack and snatches",
-        (SHARE_WON, at_most("greatest gap", 4.0, "m"), at_most("greatest gap" + SI, 5.0, "m")),
+        (SHARE_WON, at_most("greatest gap", 2.0, "m"), at_most("greatest gap" + SI, 1.5, "m")),
         "conservation of energy",
-        defaults=(at_most("greatest gap", 0.3, "m"),),
+        defaults=(at_most("greatest gap", 0.11, "m"),),
     ),
     Row(
         "N7",
@@ -207,15 +207,15 @@ MACHINES = (
         "26 ragdolls are thrown down stairs",
         (
             at_most("limits exceeded", 1.0, "degrees"),
-            at_most("greatest gap", 0.025, "m"),
+            at_most("greatest gap", 9e-4, "m"),
             at_most("asleep after the last was at 1 m/s", 5.0, "s"),
             exactly("ragdolls awake after 12 s", 0),
-            at_most("limits exceeded" + SI, 8.0, "degrees"),
-            at_most("greatest gap" + SI, 0.2, "m"),
+            at_most("limits exceeded" + SI, 1.0, "degrees"),
+            at_most("greatest gap" + SI, 0.04, "m"),
             at_most("ragdolls awake after 12 s" + SI, 26),
         ),
         "Box2D Ragdoll, SleepingTest",
-        defaults=(at_most("limits exceeded", 2.2, "degrees"), at_most("greatest gap", 0.0025, "m")),
+        defaults=(at_most("greatest gap", 2.5e-4, "m"),),
     ),
 )
 
@@ -308,10 +308,10 @@ WORLDS = (
         "sprites on joints: a hollow one swings, a chain of eight falls on a sprite",
         (
             at_most("error of a sprite's period", 1e-4),
-            at_most("greatest gap of a chain of sprites", 0.7, "px"),
+            at_most("greatest gap of a chain of sprites", 0.015, "px"),
             exactly("sprites awake after 6 s", 0),
             at_most("error of a sprite's period" + SI, 5e-3),
-            at_most("greatest gap of a chain of sprites" + SI, 3.5, "px"),
+            at_most("greatest gap of a chain of sprites" + SI, 1.1, "px"),
             exactly("sprites awake after 6 s" + SI, 0),
         ),
         "moments of squares",
