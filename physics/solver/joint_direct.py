@@ -67,7 +67,7 @@ from physics.solver.joint_trees import (
     solve_trees,
     with_room,
 )
-from physics.tables.joint import ANGLE, COUPLING, PINNED
+from physics.tables.joint import ANGLE, COUPLING, ON_AXIS, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
@@ -280,6 +280,31 @@ def write_targets(joint, rate, bends, context, a, b, first, rows_inout):
 
 
 @subkernel
+def stretch_of(joint):
+    """Return (impulse that holds the anchors, lever [px] of A, lever [px] of B) of a joint, see add_inertia.
+
+    The arms of a joint on an axis include its translation and may be long, while its force acts almost through a
+    centre of mass, or presses the bodies together. Only a force that pulls outwards turns a body back. The levers are
+    therefore the parts of the arms along this force. If the joint also locks the angle, both bodies rotate as one. Then
+    the vector between the centres of mass is the arm of both, and only the part of the impulse along it counts. joint:
+    JOINT row.
+    """
+    j = joint
+    x, y, _ = impulse_of(j)
+    impulse = norm(x, y)
+    if j.hold != ON_AXIS:
+        return impulse, norm(j.ax, j.ay), norm(j.bx, j.by)
+    if holds_angle(j):
+        between_x, between_y = j.bx - j.ax, j.by - j.ay
+        lever = norm(between_x, between_y)
+        pull = max((x * between_x + y * between_y) / lever, 0.0) if lever > 0.0 else 0.0
+        return pull, lever, lever
+    if impulse > 0.0:
+        return impulse, max(-(x * j.ax + y * j.ay) / impulse, 0.0), max((x * j.bx + y * j.by) / impulse, 0.0)
+    return 0.0, 0.0, 0.0
+
+
+@subkernel
 def add_inertia(rows, order, h, joints_inout, motions_inout):
     """Raise the inertia of light bodies in trees under tension, so that substeps can resolve their oscillations.
 
@@ -297,10 +322,10 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
         if j.direct and h > 0.0:
-            x, y, _ = impulse_of(j)
-            j.strain = max(norm(x, y) / h, fade * j.strain)
-            motions_inout[j.motion_a].tension += h * h * j.strain * norm(j.ax, j.ay)
-            motions_inout[j.motion_b].tension += h * h * j.strain * norm(j.bx, j.by)
+            impulse, lever_a, lever_b = stretch_of(j)
+            j.strain = max(impulse / h, fade * j.strain)
+            motions_inout[j.motion_a].tension += h * h * j.strain * lever_a
+            motions_inout[j.motion_b].tension += h * h * j.strain * lever_b
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
         for side in range(2):
