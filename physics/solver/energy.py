@@ -7,7 +7,8 @@ of gravity, forces and moving surfaces. A further gain may be taken from the res
 in earlier steps. The rest of the gain is removed by scaling the velocities.
 
 If a set touches no body of infinite mass, it keeps its momentum and angular momentum. Only the velocities relative to
-the set's common motion as one rigid body are scaled.
+the set's common motion as one rigid body are scaled. In sets with joints, whose tension changes inertias, the rotation
+of the common motion is slowed too if that is not enough.
 """
 
 import math
@@ -386,8 +387,9 @@ def draw_on_reserve(slop, balance_inout):
     sum_balances.
 
     Errors of the integrator alternate in sign, so bodies may regain energy that they lost before. In one step they may
-    regain SHARE_BACK of their energy, or the energy of a lift by a slop. Sets with joints may regain all of their
-    reserve in one step, because light links under tension exchange much energy with the integrator's error. Work of
+    regain SHARE_BACK of their energy, or the energy of a lift by a slop. Sets with joints and without contacts may
+    regain all of their reserve in one step, because light links under tension exchange much energy with the
+    integrator's error. With contacts, joints would return the energy that an impact took in the step before. Work of
     surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
     kinematic bodies keep all gains. A set with a joint whose anchors are far apart has no reserve: what it lost as the
     anchors parted, or loses as they are drawn together, is no error of the integrator.
@@ -395,8 +397,9 @@ def draw_on_reserve(slop, balance_inout):
     e = balance_inout
     if e.has_wide_gap:
         e.reserve = 0.0
+    in_contact = e.face_x != 0.0 or e.face_y != 0.0
     allowed = e.reserve
-    if not e.jointed:
+    if in_contact or not e.jointed:
         allowed = min(allowed, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
     gained = e.excess - e.surfaces
     beyond = 0.0 if e.driven else gained - allowed
@@ -405,7 +408,10 @@ def draw_on_reserve(slop, balance_inout):
         e.along_scale = scale_without(beyond, e.along)
         e.scale = scale_without(beyond - e.along, e.now - e.along)
     else:
-        e.scale = scale_without(beyond, e.now - energy_in_common(e))
+        relative = e.now - energy_in_common(e)
+        e.scale = scale_without(beyond, relative)
+        if e.jointed:  # raised inertias change the angular momentum; where e.scale is 0, the rotation is slowed too
+            e.spin *= scale_without(beyond - relative, 0.5 * e.inertia * e.spin * e.spin)
     e.reserve += max(-max(e.excess, gained), 0.0) - min(max(gained, 0.0), allowed)
     if e.has_wide_gap:
         e.reserve = 0.0
