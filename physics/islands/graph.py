@@ -35,6 +35,7 @@ class Edges(NamedTuple):
     overlaps: np.ndarray  # (edges) float64 [px] depth of overlap
     faces: np.ndarray  # (edges, 2) float64 normal out of an overlapped body of infinite mass; (0, 0): none
     face_speeds: np.ndarray  # (edges) float64 [px/s] speed of that body at the contact
+    face_kinematic: np.ndarray  # (edges) bool that body is kinematic
 
 
 def new_edges(room: int) -> Edges:
@@ -49,6 +50,7 @@ def new_edges(room: int) -> Edges:
         overlaps=np.zeros(room),
         faces=np.zeros((room, 2)),
         face_speeds=np.zeros(room),
+        face_kinematic=np.zeros(room, np.bool_),
     )
 
 

@@ -59,6 +59,7 @@ from physics.solver.lanes import (
 from physics.solver.motions import Motions
 from physics.solver.restitution import list_impacts, make_impacts, restore_bounces
 from physics.solver.step_context import StepContext
+from physics.tables.body import KINEMATIC
 from physics.tables.contact import SQUEEZE
 from physics.tables.step_state import CAP_HITS, StepState
 
@@ -180,8 +181,8 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
     traits_of.
 
     Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. A face is the
-    side of a body of infinite mass that overlaps another body. Islands may be squeezed if faces differ in direction, or
-    if a face moves.
+    side of a body of infinite mass that touches another body, or meets it within the step. Islands may be squeezed if
+    faces differ in direction, or if a face moves.
 
     contacts, bodies, motions: CONTACT, BODY and MOTION rows; dt [s]; limits: see settings.Limits. lists_inout:
     MotionLists, in which a body created inside another gets an energy reserve. plan_out: see Plan.
@@ -216,6 +217,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
         speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
         if c.count == 2 and c.speed_2 * dt > c.separation_2:
             speed = max(speed, c.speed_2)
+        approaches = speed > 0.0
         edges_out.impact_speeds[found] = speed
         edges_out.resting[found] = touches_slowly(c.separation_1, c.speed_1, limits)
         overlap = -(min(c.separation_1, c.separation_2) if c.count == 2 else c.separation_1)
@@ -226,7 +228,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
         for side in range(2):
             o = a if side == 0 else b
             # A character yields to bodies that push it, unless it is wedged.
-            if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
+            if (overlap > -limits.slop or approaches) and o.inverse_mass == 0.0 and not o.is_character:
                 sign = 1.0 if side == 0 else -1.0
                 face_x, face_y = sign * c.normal_x, sign * c.normal_y
                 edges_out.faces[found, 0] = face_x
@@ -235,6 +237,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
                 x, y = c.x_1 - body.center_x, c.y_1 - body.center_y
                 speed = norm(o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x) if o.moves else 0.0
                 edges_out.face_speeds[found] = speed
+                edges_out.face_kinematic[found] = body.kind == KINEMATIC
                 if first_x == 0.0 and first_y == 0.0:
                     first_x, first_y = face_x, face_y
                 may_squeeze = may_squeeze or speed > 0.0 or face_x * first_x + face_y * first_y < ALIKE

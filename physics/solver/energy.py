@@ -599,6 +599,7 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
             if not is_face:
                 continue
             root.face_speed = max(root.face_speed, edges.face_speeds[i])
+            root.has_kinematic = root.has_kinematic or edges.face_kinematic[i]
             if edges.face_speeds[i] > 0.0 and root.push_x == 0.0 and root.push_y == 0.0:
                 root.push_x, root.push_y = x, y
             if edges.overlaps[i] > slop:
@@ -621,7 +622,7 @@ def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out
         s = squeeze_out[i]
         s.depth, s.face_depth, s.face_speed = 0.0, 0.0, 0.0
         s.face_x, s.face_y, s.push_x, s.push_y = 0.0, 0.0, 0.0, 0.0
-        s.caught, s.pressed = False, False
+        s.caught, s.pressed, s.has_kinematic = False, False, False
         s.most, s.speed, s.static_speed, s.force = 0.0, 0.0, 0.0, 0.0
     find_roots(edges, count, lists.links_islands, parents_out)
     note_faces(edges, count, lists, limits.slop, parents_out, squeeze_out)
@@ -636,7 +637,7 @@ def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out
             root.most = limits.push_speed + root.face_speed
             if is_caught:
                 root.speed = root.most
-                root.static_speed = root.most if root.face_speed > 0.0 else 0.0
+                root.static_speed = root.most if root.has_kinematic else 0.0
                 m = motions[i]
                 if m.inverse_mass > 0.0:
                     root.force += norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass

@@ -498,11 +498,11 @@ def touches_slowly(separation, speed, limits):
 
 
 @subkernel
-def limit_impulses(count, motions, squeeze, h, blocks_inout):
+def limit_impulses(count, motions, squeeze, degrees, h, blocks_inout):
     """Limit the normal impulses of contacts in islands that are squeezed between static or kinematic faces. O(lanes).
 
-    Each limit is written to the lane field MOST, and the cached impulses are reduced to it. count: number of blocks;
-    motions: MOTION rows; squeeze: for each MOTION row, a SQUEEZE row that sets its limit; h [s]: length of a substep.
+    A body that does not move bears as much as all contacts of the pressed body. Its limit is in MOST. squeeze:
+    SQUEEZE row of each MOTION row; degrees: number of contacts of each; count: number of blocks; h [s]: substep.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -513,11 +513,11 @@ def limit_impulses(count, motions, squeeze, h, blocks_inout):
             if speed == 0.0:
                 continue
             if not (motions[row_a].moves and motions[row_b].moves):
-                speed += max(a.static_speed, b.static_speed)
+                pressed = row_b if motions[row_a].inverse_mass == 0.0 else row_a
+                speed += max(a.static_speed, b.static_speed) * degrees[pressed]
             most = speed * max(c[MASS_1 + lane], c[MASS_2 + lane]) + h * max(a.force, b.force)
             c[MOST + lane] = most
-            c[NORMAL_1 + lane] = min(c[NORMAL_1 + lane], most)
-            c[NORMAL_2 + lane] = min(c[NORMAL_2 + lane], most)
+            c[NORMAL_1 + lane], c[NORMAL_2 + lane] = min(c[NORMAL_1 + lane], most), min(c[NORMAL_2 + lane], most)
 
 
 @inlined
@@ -791,7 +791,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
                 work_inout[TANGENT_ROWS] += m.count
         write_all_masses(count, blocks_out)
         if plan.squeezed[0]:
-            limit_impulses(count, motions, plan.squeeze, context.h, blocks_out)
+            limit_impulses(count, motions, plan.squeeze, plan.degrees, context.h, blocks_out)
         return count
 
     return prepare_lanes

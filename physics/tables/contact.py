@@ -279,6 +279,7 @@ SQUEEZE = np.dtype(
         ("push_y", np.float64),
         ("caught", np.bool_),  # overlapped faces point in different directions
         ("pressed", np.bool_),  # a face is opposite to a moving face
+        ("has_kinematic", np.bool_),  # a face of the island belongs to a kinematic body
         ("face_speed", np.float64),  # [px/s] greatest speed of a face
         ("most", np.float64),  # [px/s] greatest speed of a body; 0: no bound
         ("speed", np.float64),  # [px/s] bound of an impulse divided by the effective mass; 0: no bound
