@@ -391,9 +391,11 @@ class Scene:
 
     @property
     def own_hits(self) -> dict[str, int]:
-        """Numbers of hits of the player's body in this run, by reporting shape: "box", "hull", "core"; {} for none.
+        """{part of the player's body: number of hits of this part in this run}; {} if the scene does not count hits.
 
-        The scene's picture, the plot of costs and the CSV file show these numbers.
+        "box" is the bounding box, and "hull" the collision shape of the sprite. "core" is the small part of a plane
+        that can be hurt, if the scene has one. The scene's picture, the plot of costs and the CSV file show these
+        numbers.
         """
         return {}
 

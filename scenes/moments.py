@@ -2,6 +2,9 @@
 
 A moment is defined by an event in the game, not by a frame number, so that it is found again after the game has
 changed. Moments are searched for one after the other, in the order given here.
+
+The condition of a moment is a function of the scene that returns whether the event has occurred. Each function of this
+module returns such a condition.
 """
 
 from collections.abc import Callable
@@ -12,7 +15,10 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """An event in a game. A picture is taken `after` steps after when(scene) has become true."""
+    """An event in a game. when(scene): condition that is True once the event has occurred.
+
+    The picture is taken `after` steps later.
+    """
 
     caption: str
     when: Callable
@@ -20,7 +26,7 @@ class Moment:
 
 
 def flying(kind, least):
-    """Return a function of the scene that returns whether at least `least` planes of a kind are in the picture."""
+    """Return a condition, f(scene) -> bool: there are at least `least` planes of the kind `kind` in the picture."""
     return lambda scene: (
         sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
         >= least
@@ -28,10 +34,9 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """Return a function of the scene that returns whether a leader fights while there are `bullets` enemy bullets or
-    more.
+    """Return a condition, f(scene) -> bool: a mid-boss or boss fights, with many enemy bullets in play.
 
-    frame: name of the picture of the leader (boss or mid-boss).
+    frame: name of the leader's picture; bullets: least number of enemy bullets.
     """
     return lambda scene: (
         len(scene.incoming) >= bullets
@@ -40,16 +45,17 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """Return a function of the scene that returns whether a mid-boss or boss of this kind is burning and falling."""
+    """Return a condition, f(scene) -> bool: a mid-boss or boss of the kind `kind` is burning and falling."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )
 
 
 def over(ground, bullets, planes=0):
-    """Return a function of the scene that returns whether the stage has reached a ground and is crowded enough.
+    """Return a condition, f(scene) -> bool: the planes fly over a given landscape, with enough enemies in play.
 
-    ground: name of the ground; bullets, planes: least numbers of enemy bullets and planes.
+    ground: name of the landscape, such as "coast"; bullets: least number of enemy bullets; planes: least number of
+    enemy planes.
     """
     return lambda scene: (
         scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
@@ -57,16 +63,16 @@ def over(ground, bullets, planes=0):
 
 
 def bombed(frame):
-    """Return a function of the scene that returns whether a bomb was just dropped in a fight against a leader.
+    """Return a condition, f(scene) -> bool: the player has just dropped a bomb in a fight against a mid-boss or boss.
 
-    frame: name of the picture of the leader (boss or mid-boss).
+    frame: name of the picture of the mid-boss or boss.
     """
     fights = leader(frame)
     return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
 
 
 def done(feat, times=1):
-    """Return a function of the scene that returns whether the hero has done a feat at least `times` times.
+    """Return a condition, f(scene) -> bool: the hero has done the feat `feat` at least `times` times.
 
     feat: name of the feat, as in Feats.
     """
@@ -74,15 +80,15 @@ def done(feat, times=1):
 
 
 def flown(act, number):
-    """Return a function of the scene that returns whether the lander's bot has come far enough in act `act`.
+    """Return a condition, f(scene) -> bool: the lander's bot has come far enough.
 
-    That is when it flies to waypoint `number` or a later one.
+    It flies to waypoint number `number` of act `act`, or to a later one.
     """
     return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
 
 
 def landing(name, high):
-    """Return a function of the scene that returns whether the lander is just above the site `name`.
+    """Return a condition, f(scene) -> bool: the lander is just above the landing site `name`.
 
     high: greatest height above the site [px], approximately.
     """
@@ -94,9 +100,7 @@ def landing(name, high):
 
 
 def landed(count, mode):
-    """Return a function of the scene that returns whether `count` landings have been made and the course
-    is in `mode`.
-    """
+    """Return a condition, f(scene) -> bool: the ship has landed `count` times, and the course is in the mode `mode`."""
     return lambda scene: scene.score.landings == count and scene.course.mode == mode
 
 

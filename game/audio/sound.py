@@ -53,7 +53,8 @@ RANKS = {
 class Voice:
     """One channel of the mixer, and the sound that it played last.
 
-    started: number of that sound in the sequence of all sounds started so far; rank: importance of that sound.
+    All sounds are numbered in the order in which they start. started: number of the channel's last sound; rank:
+    importance of this sound.
     """
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name

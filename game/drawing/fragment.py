@@ -16,9 +16,9 @@ def cut_out(
 ) -> pygame.Surface:
     """Return the part of the picture `source` under the solid pixels of `mask`. All other pixels are transparent.
 
-    left, top: position of the mask in the picture. Where opaque pixels of the picture continue beyond the mask, the
-    mask has a fracture edge. There the outermost pixels are mixed with the colour `edge` by the factor `share` (0..1).
-    The next pixels inwards are mixed by share / 2.
+    left, top: position of the mask in the picture. Edges along which the picture was broken are tinted with the colour
+    `edge`. Such an edge is where the picture has opaque pixels just outside the mask. The colour of its outermost
+    pixels is mixed with `edge` by the factor `share` (0..1), and that of the next pixels inwards by share / 2.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)

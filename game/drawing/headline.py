@@ -20,9 +20,11 @@ ROWS = 2  # lines of small text that the title line holds
 class Headline(NamedTuple):
     """One sentence and one live number in the title line of a lab (a scene for an experiment).
 
-    sentence: at most 14 words; mend: the key that changes the number, and its effect. number: the number as text,
-    measured in this run; unit: its unit, in words. seen: count of the data so far; needed: count from which on the
-    number is shown; of: name of the counted data. good: whether nothing goes wrong now.
+    sentence: at most 14 words; mend: the key that changes the number, and its effect; number: the number as text,
+    measured in this run; unit: unit of the number, in words.
+
+    The number is shown once `needed` data are collected; `seen` are collected so far. of: name of these data, such as
+    "hits". good: True if the fault that the lab shows does not occur now.
     """
 
     sentence: str

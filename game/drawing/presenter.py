@@ -59,7 +59,10 @@ class Frame(Canvas):
 
     @property
     def edge(self) -> int:
-        """Greatest width [frame px] of a text's outline outside the text's box, on the canvas or the frame."""
+        """Greatest width of a text's outline [frame px]. The outline is drawn outside the text's box.
+
+        It is the width for text on the frame, or for text on the canvas, whichever is greater.
+        """
         return max(self.scale, self.text_scale)
 
     @property

@@ -145,8 +145,8 @@ class RotatedSprites:
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
     """Return the picture of a rotated mask. Each solid pixel has the colour of its source pixel in `image`.
 
-    turned: the rotated mask. Its arrays source_x and source_y contain the source pixel in `image` of each of its
-    pixels.
+    turned: the rotated mask. Its arrays source_x and source_y contain, for each of its pixels, the position of the
+    source pixel in `image`.
     """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)

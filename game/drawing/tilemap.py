@@ -227,7 +227,8 @@ class _Reader:
         """Yield (place, name, layer, offset [px]) of all tile and object layers in order, including layers in groups.
 
         data: the map, or a group of layers; place: its place in the file, as text; offset: its offset (x, y) [px].
-        prefix: text before "layers" in the place of a layer; depth: number of groups that contain `data`.
+        prefix: text with which the places of its layers begin, such as "layers[2]."; depth: number of groups that
+        contain `data`.
         """
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"

@@ -119,9 +119,11 @@ def part_of(path: Path, process: int) -> Path:
 def keep_beside(path: str | Path, why: str = "damaged") -> Path:
     """Copy an unusable file to the first unused name of the form `name.damaged-N`, and return the path of the copy.
 
-    why: the word in place of "damaged". The copy is created exclusively, so that no earlier copy is overwritten. If a
-    copy with the same content exists, its path is returned, so that repeated starts add no copies. An unreadable file
-    is renamed instead, because the next save would overwrite it. Raises OSError if the renaming fails.
+    why: the word in place of "damaged". If a copy with the same content exists, its path is returned, so that repeated
+    starts of the program add no copies. The copy is created exclusively, so that no earlier copy is overwritten.
+
+    A file that cannot be read is renamed instead, because the next save would overwrite it. Raises OSError if the
+    renaming fails.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
@@ -145,8 +147,9 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
     """Keep a copy of an unusable file (see keep_beside), and return one line about it for the player.
 
-    The line contains the path, the place in the file, the reason, the text `instead` and the name of the copy. instead:
-    text about the values that replace the file's content; why: word in the name of the copy.
+    The line contains the path, the place in the file, the reason, the text `instead` and the name of the copy.
+
+    instead: text that says which values are used in place of the file's content; why: word in the name of the copy.
     """
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"

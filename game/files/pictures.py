@@ -34,10 +34,12 @@ def png_size(path: str | Path, most: int) -> tuple[int, int]:
 def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
     """Return the path of the picture that a level names: a file in the level's folder, or a picture of the program.
 
-    level: path of the level's file; place: place of the picture's name in that file, as text. name: path relative to
-    the level's folder, with slashes or backslashes. If it leads out of the level's folder or names no existing file,
-    the file with the same name in the folder `own` is used. Editors write paths that are valid only on the computer on
-    which the level was made. Raises FileError if that file does not exist either.
+    level: path of the level's file. name: path of the picture relative to the level's folder, with slashes or
+    backslashes. place: place of this name in the level's file, used in error messages.
+
+    Editors may write paths that are valid only on the computer on which the level was made. So if `name` leads out of
+    the level's folder, or if there is no such file, the file with the same name in the program's folder `own` is used.
+    Raises FileError if that file does not exist either.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""

@@ -52,10 +52,11 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other` in a table {action: controls}, and assign another if possible.
+    """Take `control` away from the action `other` in a table {action: controls}, and give the action another control.
 
-    device: "keys" or "buttons"; given_up: the control to try first, which the new owner of `control` no longer uses.
-    Return the line for the player; None if `other` would have no control.
+    given_up: control that is no longer used, because its action gets `control`. It is tried first. If `other` has
+    further controls, no other replacement is tried. device: "keys" or "buttons". Return the line for the player; None
+    if `other` would have no control.
     """
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
@@ -102,8 +103,8 @@ def default_table(device: str) -> dict[str, list[str]]:
 def completed(table: Table, device: str) -> dict[str, list[str]]:
     """Return a copy of a table {action: controls} in which every action has a control. device: "keys" or "buttons".
 
-    Actions that the table lacks, such as one from an older file, get their default controls, except those that conflict
-    with another action. If all conflict, they get a spare control.
+    The table may lack an action, for example if it was read from an older file. Such an action gets its default
+    controls, without those that conflict with another action. If all of them conflict, it gets one spare control.
     """
     full = {}
     for action in DEFAULTS[device]:

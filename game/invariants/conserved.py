@@ -94,18 +94,19 @@ class Momentum(OfTheAlone):
 class Spin(OfTheAlone):
     """Invariant U4: the angular momentum of isolated bodies about their common centre of mass is constant.
 
-    The tolerance is the sum of two terms. The first is 1e-3 of Σ |r × m v| + |I ω| in 600 steps. The second is the
-    rounding error of U3 at the moment arms of the bodies. The check sums the torques of the impulses. Each body is
-    taken halfway between its positions before and after the step.
+    The check sums the torques of the impulses. Each body is taken halfway between its positions before and after the
+    step. The tolerance is the sum of two terms. The first is 1e-3 of Σ |r × m v| + |I ω| in 600 steps. The second is
+    the rounding error of U3 (momentum), times the moment arms of the bodies.
 
-    Three effects are errors of a single step rather than a drift, and are not counted. Push-out moves bodies, and thus
-    changes the moment arms of their momenta. By this, a falling column of ten boxes loses 0.9 % in a step under
-    projection.
+    Three effects are errors of a single step rather than a drift, and are not counted:
 
-    After an impact within the step, the two bodies continue to move past each other (see `slip`). The error is 0.7 % in
-    one hit of two stones of lab/carving, and 0.1 % in 214 steps of 130 bodies in lab/tumbler.
+    1. Push-out moves bodies, and thus changes the moment arms of their momenta. In this way, a falling column of ten
+    boxes loses 0.9 % in a step under projection.
 
-    Joints also act at moments within the step (see `lag`). The error is 0.2 % in a second of the doll of lab/joints,
+    2. After an impact within the step, the two bodies continue to move past each other (see `slip`). The error is 0.7 %
+    in one hit of two stones of lab/carving, and 0.1 % in 214 steps of 130 bodies in lab/tumbler.
+
+    3. Joints also act at moments within the step (see `lag`). The error is 0.2 % in a second of the doll of lab/joints,
     which flies with gaps of up to a pixel.
     """
 
@@ -156,8 +157,9 @@ class Spin(OfTheAlone):
 def slip(step: Step, among: np.ndarray) -> float:
     """Return the error of angular momentum that the contacts of a step may cause.
 
-    among: (n,) bool, the bodies to consider. The error is the sum of impulse · (relative path of the two bodies in the
-    step + gap or overlap). The sum is over the contacts whose two bodies are in `among`.
+    Only contacts between two bodies that are flagged in `among`, (n,) bool, are included. The error of a contact is
+    impulse · (path + gap). The path is the distance by which the two bodies move past each other at the contact point
+    in the step. The gap is the gap or overlap of the contact. The errors of all contacts are added.
     """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
@@ -178,10 +180,11 @@ def slip(step: Step, among: np.ndarray) -> float:
 def lag(step: Step, among: np.ndarray) -> float:
     """Return the error of angular momentum that the joints of a step may cause.
 
-    among: (n,) bool, the bodies to consider. A joint acts at a moment within the step when its bodies are not halfway
-    between their positions before and after the step. The gap between its anchors then acts as a moment arm. The error
-    is the sum of impulse · (half of the bodies' relative path in the step + gap). The sum is over the joints whose two
-    bodies are in `among`.
+    The check of U4 places each body halfway between its positions before and after the step. A joint acts at another
+    moment of the step, when its bodies are elsewhere. The gap between its anchors is an additional moment arm.
+
+    Only joints between two bodies that are flagged in `among`, (n,) bool, are included. The error of a joint is impulse
+    · (half of the bodies' relative path in the step + gap). The errors of all joints are added.
     """
     rows, (a, b) = step.world.joints[step.world.joints["enabled"]], step.linked
     a, b = a[: len(rows)], b[: len(rows)]  # broken joints follow, whose last force is not known

@@ -46,8 +46,8 @@ class InvariantStatus:
 class InvariantMonitor:
     """Monitor of the invariants of a scene. Call take(world) for each world, and note() after each frame.
 
-    strict: whether pairs of concave shapes are also checked. A caller that uses a strict monitor ends the run at the
-    first break, which is in `first`.
+    strict: whether pairs of concave shapes are also checked. In a strict run, the caller ends the run at the first
+    break. The attribute `first` contains this break.
     """
 
     def __init__(self, strict: bool = False) -> None:

@@ -17,9 +17,9 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return (name, rows, names of the columns to check) of each table that a world reports, except the shapes' AABBs.
+    """Return the tables that a world reports, each as (name, rows, names of the columns to check).
 
-    sleeping: whether the table of sleeping contacts is included.
+    The AABBs of shapes are not included. sleeping: whether the table of sleeping contacts is included.
     """
     events = world.events
     reported = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in REPORTED]
@@ -48,8 +48,8 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
     """Return (ids of bodies, value, quantity) of the first reported number that is not finite; None if all are finite.
 
-    sleeping: whether sleeping contacts are also checked, which the world must list for this. The AABB of a shape
-    without a solid part extends from +inf to -inf, which is allowed.
+    sleeping: True also checks the table world.sleeping_contacts. The AABB of a shape without a solid part extends from
+    +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -72,7 +72,7 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
     """Return (ids of bodies, error, quantity) of the first normal that is not of unit length; None if all are.
 
-    error: absolute error of the squared length. sleeping: whether sleeping contacts are also checked.
+    error: absolute error of the squared length. sleeping: True also checks the table world.sleeping_contacts.
     """
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):

@@ -12,8 +12,8 @@ from physics.tables.joint import GEARED
 class Step:
     """A finished step of a world. before, now: Bodies before and after the step; dt: length of the step [s].
 
-    edited: whether the game changed the world since the previous step. changed, forced: (n,) bool, one for each body
-    before the step: whether the game changed the body, and whether a force was applied to it.
+    edited: whether the game changed the world since the previous step. changed: (n,) bool, whether the game changed
+    each body. forced: (n,) bool, whether a force was applied to each body. n is the number of bodies before the step.
     """
 
     def __init__(
@@ -69,9 +69,10 @@ class Step:
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to these.
+        """Return (n,) bool: the bodies that are flagged in `rows` or connected to one of these by contacts or joints.
 
-        rows, through: (n,) bool. A contact or joint counts only if both its bodies are flagged in `through`.
+        The connection may lead through several bodies. rows, through: (n,) bool. A contact or joint counts only if both
+        its bodies are flagged in `through`.
         """
         joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
         a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))

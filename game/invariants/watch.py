@@ -40,8 +40,8 @@ def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
 class Watch:
     """Checks of all invariants of one world. Call before() and after() around each step.
 
-    found: {id of the invariant: its first break since the last collect(), or its latest result if there was none}.
-    seconds: time that the checks have taken since the last collect().
+    found: {id of the invariant: result} since the last collect(). The result is the first break or, without a break,
+    the latest result. seconds: time that the checks have taken since the last collect().
     """
 
     def __init__(self, concave: bool = True) -> None:

@@ -1,9 +1,10 @@
 """Advice on the settings of a scene: the fastest setting whose error is within a limit.
 
-First, settings that differ from the current one by a single change are measured. Then the changes that save time are
-combined, and the combination is measured. A faster setting is advised only if it is certainly faster. This means that
-the intervals of the two times, over all snapshots, do not overlap. The times must also differ by more than 10 %
-(pareto_front.TIE).
+First, each setting that differs from the current one by a single change is measured. Then the changes that save time
+are combined, and the combination is measured.
+
+A faster setting is advised only if it is certainly faster. For this, the intervals of the two times must not overlap,
+and the times must differ by more than 10 % (pareto_front.TIE). The times are pooled over all snapshots.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -102,9 +103,10 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Return the median time of a step under `setting`, divided by that under `here`, as measured in the survey.
+    """Return the ratio of two median times of a step: under `setting`, and under the current setting `here`.
 
-    Raises KeyError or ValueError for a setting without times.
+    The times are taken from the survey. Raises ValueError if one of the settings has no times, and KeyError if it is
+    not in the survey.
     """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     if cost is None or now is None:
@@ -115,10 +117,15 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 def settings_within(survey: Survey, error: float) -> list[Setting]:
     """Return the settings of the survey whose error of every kind is at most `error`, fastest first.
 
-    Settings with failures are left out. error: limit in pixels; for collision tiers (kinds of collision shape of the
-    sprites), in wrong answers per 100 encounters. The upper end of the error's interval is compared for another tier,
-    and the lower end for the current tier. So a few encounters neither recommend another tier nor reject the current
-    one. Settings with another joint solver are left out, because no scene can be changed to one.
+    error: limit in pixels, or in wrong answers per 100 encounters for errors of collision tiers (kinds of collision
+    shape of the sprites).
+
+    A rate of wrong answers has an interval. A setting with another tier must have the upper end of its interval within
+    the limit, so that it is not recommended after a few encounters. For the current tier the lower end is enough, so
+    that it is not rejected after a few encounters.
+
+    Settings whose runs had failures are omitted. Settings with another joint solver are also omitted, because no scene
+    can be changed to one.
     """
     found = {}
     for setting, dot in survey.dots.items():
@@ -133,10 +140,10 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def _end(survey, setting, error):
-    """Return which end of a setting's error interval is compared with a limit: 0 for the lower, 1 for the upper end.
+    """Return the end of an error's interval that is compared with a limit: 0 (lower end) or 1 (upper end).
 
-    The lower end is compared for a rate of wrong answers, if the setting has the collision tier of the setting that was
-    measured first.
+    The result is 0 only for a rate of wrong answers of a setting with the current collision tier and narrow phase. The
+    current ones are those of the setting that was measured first.
     """
     first = survey.first
     same = error.verdicts is not None and (setting.tier, setting.narrowphase) == (first.tier, first.narrowphase)
@@ -154,10 +161,10 @@ def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
 
 
 def _together(survey, here, error):
-    """Return the setting `here` with several changes combined, one for each group of fields in PARTS.
+    """Return the setting `here`, changed in every group of fields (PARTS) in which a change is advisable.
 
-    Each group gets the values of the fastest setting that differs from `here` only in this group. A group is changed
-    only if that setting is certainly faster, or if the error of `here` exceeds the limit `error`.
+    For each group, the fastest setting is found that is within the limit `error` and differs from `here` only in this
+    group. Its values are used if it is certainly faster than `here`, or if `here` exceeds the limit.
     """
     together = here
     for part in PARTS:

@@ -1,7 +1,7 @@
-"""Inspector of a contact: the result of each stage of the last step for one pair of shapes, with numbers and times.
+"""Inspector of a contact: shows the result of each stage of the last step for one pair of shapes.
 
-The time of a stage is the time for all pairs in the step. The narrow-phase time of the single pair is measured on
-request: a thousand copies of the pair are timed in five runs after a warm-up.
+The time that is shown for a stage is its time for all pairs in the step. The narrow-phase time of the single pair is
+measured on request: a thousand copies of the pair are timed in five runs after a warm-up.
 """
 
 from math import atan2, degrees

@@ -28,9 +28,11 @@ class Side(NamedTuple):
 class EffectCost(NamedTuple):
     """The cost of one effect.
 
-    cost, without: times of a step with and without the effect [s]; None if not measured yet. kernels: number of kernels
-    compiled only for this effect, counted once per set of argument types; None if not counted yet, or if nothing is
-    compiled.
+    cost: time of a step with the effect [s]; without: time of a step without it [s]. Both are None until they are
+    measured.
+
+    kernels: number of kernels that are compiled only because of this effect. A kernel counts once for each set of
+    argument types. None if not counted yet, or if nothing is compiled.
     """
 
     effect: str
@@ -55,7 +57,10 @@ class EffectCost(NamedTuple):
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """Return {effect: (Side with the effect, Side without it)} for all effects, for a world that declares `effects`."""
+    """Return {effect: (Side with the effect, Side without it)} for every effect that exists.
+
+    effects: effects that the compared world declares. Both sides are derived from them.
+    """
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):

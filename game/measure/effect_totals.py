@@ -43,9 +43,9 @@ class EffectTotal(NamedTuple):
     bytes: int | None = None
 
     def value(self, field: str) -> float | None:
-        """Return the value of a field in FIELDS, in its stored unit; None if it is not known yet.
+        """Return the value of the field `field` (one of FIELDS) as a number; None if it is not known yet.
 
-        For the field "time", it is the least time.
+        The value of "time" is the least time of a step [s].
         """
         if field == "time":
             return self.time.least if self.time is not None and self.time.runs >= RUNS else None
@@ -53,9 +53,10 @@ class EffectTotal(NamedTuple):
 
 
 def choices_of(moment: Moment) -> dict[str, Side]:
-    """Return {name in NAMES: Side} of the choices of effects that are valid in the state of the snapshot `moment`.
+    """Return {name: Side} of the choices of effects: as declared, all effects, and the fewest possible.
 
-    Added effects have neutral settings.
+    The names are those in NAMES. A choice is omitted if it is not valid in the state of the snapshot `moment`. Effects
+    that the scene does not declare have neutral settings, so that they do nothing.
     """
     declared = moment.effects
     added = tuple(name for name in EFFECTS if not getattr(declared, name) and name in NEUTRAL)

@@ -1,11 +1,14 @@
-"""`python -m game.measure.kernel_counts`: the number of kernels compiled for each effect and choice, as lines of JSON.
+"""`python -m game.measure.kernel_counts`: count the kernels that are compiled for each effect and choice of effects.
 
 Kernels run as plain Python and record the types of their arguments; nothing is compiled.
 
-Standard input is one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
-physics.warmup, "choices": {name: names of effects}}. Standard output has one line per choice: [name, number of kernels
-that a world with these effects calls]. One line per effect follows: [name, number of kernels that are called only with
-this effect]. Without a compiler (numba) there is no output.
+Standard input is one line of JSON:
+  {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in physics.warmup,
+  "choices": {name of the choice: names of effects}}
+
+Standard output is lines of JSON: first one line for each choice, [name, number of kernels that a world with these
+effects calls]. Then one line for each effect, [name, number of kernels that are called only with this effect]. Without
+a compiler (numba) there is no output.
 """
 
 import json

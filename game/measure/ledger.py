@@ -31,8 +31,9 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 class Entry(NamedTuple):
     """Result for one effect of one scene, from a copy with the effect and a copy without it.
 
-    moved (bodies), reported (events), ruled (state of the rules), parted (digests): first frame, counted from 1, in
-    which the two copies differ in this respect; None if they never differ.
+    The fields `moved`, `reported`, `ruled` and `parted` are numbers of frames, counted from 1. Each is the first frame
+    in which the copies differ: in their bodies, their events, the state of their rules, or their digests. It is None if
+    they never differ.
     """
 
     effect: str

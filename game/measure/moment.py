@@ -62,8 +62,9 @@ class Moment:
         The first run of a setting also compiles kernels, so the caller must not count it.
 
         stage: name of the only stage to time, None for the whole step. The result is 0 if the step has no such stage.
-        act: operation that is timed instead of the steps. In that case one step is made first, which fills the broad
-        phase, and the operation is called once untimed.
+
+        act: operation that is timed instead of the steps. Before it is timed, one step is made, which fills the broad
+        phase, and the operation is called once.
         """
         world = self.world(setting)
         if stage is not None:
@@ -85,9 +86,10 @@ class Moment:
 
 
 class Way(NamedTuple):
-    """Motion of the bodies in a run. failures: counts of failures by kind.
+    """Motion of the bodies in a run, recorded after each step.
 
-    After each step: places, the centres of mass; overlap, the deepest overlap; gaps, the widest gap of a joint.
+    places: centres of mass of the bodies; overlap: depth of the deepest overlap; gaps: width of the widest gap of a
+    joint; failures: counts of failures in the run, by kind.
     """
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids

@@ -71,9 +71,11 @@ class PairBatch:
     def _near(self, rows_a, rows_b, rng):
         """Return (rows, pairs) of the pairs of shapes whose AABBs overlap, in random order.
 
-        rows: (m, 2) SHAPE rows of the two shapes; pairs: (m,) index of the pair of bodies to which the shapes belong.
-        rows_a, rows_b: one array for each shape of A and of B, with its SHAPE rows in all pairs of bodies. rng:
-        generator of the random order.
+        rows: (m, 2) rows in the table SHAPE, of the shape of A and the shape of B. pairs: (m,) index of the pair of
+        bodies that these shapes belong to.
+
+        rows_a: one array for each shape of body A. It contains the shape's row in the table SHAPE for each of the n
+        pairs of bodies. rows_b: the same for body B. rng: generator of the random order.
         """
         candidates, pairs = [], []
         for a in rows_a:

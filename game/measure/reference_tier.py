@@ -21,11 +21,14 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 class ReferenceTier:
     """Comparison of all collision tiers of sprites (circle, box, ... pixels) with the tier "mask", the exact pixels.
 
-    Call ask(world) once per step. `wrong` and `missed` are dicts by tier. `wrong` contains the rates of false hits
-    among the reported hits, and `missed` the rates of missed hits among the true hits. They include all snapshots at
-    which every tier was tested. A pair of bodies counts once. lit: the tier whose errors are drawn. `seen`: list of the
-    errors of that tier at the last snapshot. An error is (True for a false hit or False for a missed hit, outlines of
-    both bodies).
+    Call ask(world) once per step. The results are stored in these attributes:
+
+    wrong: {tier: rate of false hits among the reported hits}. missed: {tier: rate of missed hits among the true hits}.
+    Both include all snapshots at which every tier was tested. A pair of bodies counts once, even if it is found at
+    several snapshots.
+
+    lit: name of the tier whose errors are drawn. seen: errors of this tier at the last snapshot, a list of (is a false
+    hit, outlines of both bodies). An error that is no false hit is a missed hit.
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
@@ -39,10 +42,10 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Find the colliding pairs of bodies with the next collision tier (kind of collision shape).
+        """Find the touching pairs of bodies with the next collision tier (kind of collision shape).
 
-        Return whether it was the last tier. All tiers are tested at the same snapshot of the world, which the call for
-        the first tier takes.
+        Return whether it was the last tier. The call for the first tier takes a snapshot of the world, at which all
+        tiers are then tested.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}

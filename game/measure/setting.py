@@ -1,4 +1,4 @@
-"""Setting of a world, and the list of settings to measure. Each of them differs from the current one by one change."""
+"""Setting of a world, and the list of settings to measure: the current one, and others that differ by one change."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -49,9 +49,9 @@ _WORDS = {
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
     """Return the settings to measure: first `here`, then the settings that differ from `here` by one change.
 
-    A change is another broad phase, narrow phase or collision tier (kind of collision shape). Another solver or joint
-    solver is also a change, and is combined with each number of substeps. In the list, the kinds of change alternate.
-    effects: effects of the world, which determine the possible changes.
+    The changes are: another broad phase, the narrow phase on or off, another collision tier (kind of collision shape),
+    another solver, another joint solver. Each solver and joint solver is listed with every number of substeps. The list
+    alternates between these kinds of change. effects: effects of the world, which determine the possible solvers.
     """
     rows = [
         list(_solvers(here, effects)),

@@ -116,9 +116,13 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
     """Return the state after each iteration of GJK and EPA, one dict per iteration.
 
-    a, b: (n, 2) corners [px] of two polygons. "phase": "gjk" or "epa". "simplex" (k, 2) and, in EPA, "polytope" (k, 2):
-    points of the Minkowski difference A - B. "witness": the nearest points so far, on A and on B. "direction": the unit
-    direction of the next search. "distance": the separation so far [px], negative if the polygons overlap.
+    a, b: (n, 2) corners [px] of two polygons. The keys of a dict:
+      "phase": "gjk" or "epa"
+      "simplex": (k, 2) points of the Minkowski difference A - B
+      "polytope": (k, 2) points of A - B, only in the phase "epa"
+      "witness": the nearest points so far, one on A and one on B
+      "direction": unit direction of the next search
+      "distance": separation so far [px], negative if the polygons overlap
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()

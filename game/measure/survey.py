@@ -20,9 +20,10 @@ LEAST_HITS = 20  # hits that boxes must have reported before their rate of false
 class Dot:
     """Measurements of one setting, drawn as a dot in the plot of cost and error.
 
-    spent: {number of the snapshot from which the runs start: seconds per step of each run}. errors: {number of the
-    snapshot: {kind: Error}}. Values pooled over the snapshots are cached, because the plot reads each several times per
-    frame.
+    Runs start from several snapshots, which are numbered. spent: {number of a snapshot: seconds per step of each run}.
+    errors: {number of a snapshot: {kind: Error}}.
+
+    Values pooled over the snapshots are cached, because the plot reads each several times per frame.
     """
 
     setting: Setting
@@ -110,8 +111,8 @@ class Survey:
     def error(self, setting: Setting, kind: str) -> Error | None:
         """Return the Error of the kind `kind` of a measured setting; None if it is unknown.
 
-        The error is pooled over all snapshots from which runs started. An error in wrong answers is that of the whole
-        recorded run, if this is known.
+        An error in pixels is pooled over all snapshots from which runs started. So is an error in wrong answers, unless
+        the encounters of the whole recorded run are known. Then those are used instead.
         """
         error = self.dots[setting].error(kind)
         verdicts = self.encounters.get(setting.tier or "") if setting.narrowphase else None
@@ -197,11 +198,11 @@ class Survey:
 
 
 def own_sentence(hits: Mapping[str, int], tier: str | None) -> str:
-    """Return a sentence on the false hits of the player's bounding box, from the scene's counts.
+    """Return a sentence on the player's own hits: how many hits of the bounding box are false.
 
-    Return "" without counts, or if `tier` is not exact. hits: Scene.own_hits; tier: collision tier of the player's
-    shape, the hull, or None. The box contains the shapes of every tier. Thus a hit of the box that is not a hit of the
-    hull is false.
+    The bounding box contains the collision shapes of every tier. Therefore a hit of the box is false if the player's
+    shape (the hull) is not hit. hits: counts of both, as in Scene.own_hits; tier: collision tier of the hull, or None.
+    Return "" without counts, or if the tier of the hull is not exact.
     """
     boxes, hull = hits.get("box", 0), hits.get("hull", 0)
     if not boxes or tier not in ("pixels", "mask"):

@@ -34,9 +34,10 @@ from physics.jit.workers import end_all, start_module
 class Surveyor:
     """Client of the measuring process.
 
-    The measure methods send orders, and turn() stores the results that have arrived. module: name of the module that
-    the process runs. `trouble`: the reason why nothing is measured, or "". The process starts with the first order.
-    After stop(), it starts again with the next order.
+    The measure methods send orders to the process, and turn() stores the results that have arrived. The process starts
+    with the first order. After stop(), it starts again with the next order.
+
+    module: name of the module that the process runs. `trouble`: the reason why nothing is measured, or "".
     """
 
     def __init__(self, module: str = f"{__package__}.worker") -> None:
@@ -61,9 +62,11 @@ class Surveyor:
     def measure(self, snapshot: Snapshot, broadphase: str, run: object = None) -> None:
         """Request the measurement of every setting, starting from `snapshot`.
 
-        The results are stored in the attribute `survey`. The request replaces an unfinished earlier one. broadphase:
-        name of the broad phase of the snapshot's world. run: the inputs recorded so far, or None if the run is not
-        recorded. A process of game.run.run_worker also counts which bodies met in that run.
+        The results are stored in the attribute `survey`. The request replaces an unfinished earlier one.
+
+        broadphase: name of the broad phase of the snapshot's world. run: the inputs recorded so far, or None if the run
+        is not recorded. If the process runs the module game.run.run_worker, it also counts which bodies met in that
+        run.
         """
         if not self._started():
             return
@@ -131,11 +134,13 @@ class Surveyor:
     def measure_effects(
         self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None, each: bool = True
     ) -> None:
-        """Order measurements of the choices of effects and of each effect: its time, and the kernels compiled for it.
+        """Order measurements of the costs of effects. The results are stored in `totals` and `effects`.
 
-        The results are stored in `totals` and `effects`. each: False measures only the choices. snapshot: state from
-        which the steps are timed; broadphase: name of the broad phase of its world; pieces: shape pairs and queries
-        that the scene uses, as in physics.warmup, None for all.
+        For each choice of effects (see effect_totals), and for each single effect, the time of a step is measured, and
+        the compiled kernels are counted. each: False measures only the choices.
+
+        snapshot: state from which the steps are timed; broadphase: name of the broad phase of its world; pieces: shape
+        pairs and queries that the scene uses, as in physics.warmup, None for all.
         """
         if not self._started():
             return

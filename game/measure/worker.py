@@ -1,4 +1,6 @@
-"""`python -m game.measure.worker`: the measuring process, which measures settings of worlds, sprites, runs and effects.
+"""`python -m game.measure.worker`: the measuring process, to which the game sends orders for measurements.
+
+It measures the settings of a world, the collision tiers of a pair of sprites, lists of runs, and the costs of effects.
 
 Each line of JSON on standard input is an order, which replaces the previous one. Each line of JSON on standard output
 is a result. The process ends when its standard input closes, so it never outlives the program that started it.
@@ -62,9 +64,9 @@ class Orders:
         os._exit(0)
 
     def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
-        """Wait until there is an order other than `after`, and return the latest order.
+        """Wait for a new order, and return it. If several have arrived, return the latest.
 
-        after: the previous order, or None.
+        after: the order that was returned last, or None.
         """
         with self.changed:
             self.changed.wait_for(lambda: self.latest is not after)
@@ -77,7 +79,7 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting of a world. Each run starts from the snapshot file that the order names.
+    """Measure every setting of a world. Each run starts from the snapshot whose file the order names.
 
     First, the errors and one timed run of each setting are reported. Further timed runs in random order follow while
     goes_on() is True. report(line of JSON) is called for each result.
@@ -119,10 +121,10 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 
 
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the runs of an order while goes_on() is True. report(line of JSON) is called after each run.
+    """Measure the runs that an order contains, while goes_on() is True. report(line of JSON) is called after each run.
 
-    order["runs"]: for each run, a dict of the fields of MeasuredRun. It contains file names instead of snapshots, and
-    lists instead of Recipe and Act.
+    order["runs"]: for each run, the fields of a MeasuredRun as a dict. In place of a snapshot it has the name of its
+    file, and in place of a Recipe or an Act, a list of its fields.
     """
     loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
@@ -147,10 +149,13 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the time and the kernels of each choice of effects and of each effect, from the snapshot of an order.
+    """Measure the costs of a scene's effects: time of a step, number of kernels, and time of the first step.
 
-    report(line of JSON) is called for each result. The timing ends when goes_on() is False. order["each"]: whether each
-    effect is also timed.
+    The costs are measured for each choice of effects: as declared, all effects, and the fewest possible. If
+    order["each"] is True, the time and the kernels of each single effect are measured, too. All runs start from the
+    snapshot whose file is order["snapshot"].
+
+    report(line of JSON) is called for each result. When goes_on() is False, nothing more is timed.
     """
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     choices = choices_of(moment)

@@ -73,10 +73,11 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return the impacts of the last step, each as [age 0, outlines, time, position, position without impact].
+        """Return the impacts of the last step, each as [age, outlines, time, position, position without impact].
 
-        outlines: pairs of outlines of the body, at the time of impact and at the end of the step without the impact.
-        The time of impact is a share of the step. The positions are (x, y) [px].
+        age: 0, because the impact is new. outlines: for each shape of the body, a pair of outlines: at the time of
+        impact, and at the end of the step without the impact. time: time of impact as a share of the step. The
+        positions are (x, y) [px].
         """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes

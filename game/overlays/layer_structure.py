@@ -84,10 +84,10 @@ class Structure(Layer):
 def covered(
     low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
 ) -> Iterable[tuple[int, int, int]]:
-    """Return (lane, first, last) of the bars that cover the given intervals.
+    """Return the bars that cover the given intervals, each as (lane, first, last).
 
-    Overlapping intervals in a lane are merged. low, high: (n,) ends of the intervals, whole numbers 0..length; lanes:
-    (n,) lane in which each interval is drawn; count: number of lanes.
+    A lane is one line of the picture, in which overlapping intervals are merged to one bar. low, high: (n,) ends of the
+    intervals, whole numbers 0..length; lanes: (n,) lane in which each interval is drawn; count: number of lanes.
     """
     edges = np.zeros((count, length + 1), int)
     np.add.at(edges, (lanes, low), 1)

@@ -14,9 +14,10 @@ WAITS = "The answer comes with the first chart: its jobs are not done yet."
 def answer_of(rows: Sequence[Row]) -> str:
     """Return the first sentence of the report. rows: rows of the chart "tiers".
 
-    The sentence gives the rate of false hits, pooled over the sprites, with its 95 % interval (Wilson). It also gives
-    the time of a hit by exact pixels, divided by the time by boxes, as a range over the sprites. If the intervals of
-    all these ratios contain 1, the sentence says that there is no difference.
+    The sentence gives two figures. The first is the rate of false hits of boxes, pooled over the sprites, with its 95 %
+    interval (Wilson). The second is a ratio: the time of a hit by exact pixels, divided by the time of a hit by boxes.
+    It is given as a range over the sprites. If the interval of every sprite's ratio contains 1, the sentence says that
+    there is no difference.
     """
     mine = [row for row in rows if row.get("panel") == AROUND]
     costs = {(row["sprite"], row["series"]): row["hit_cost"] for row in mine}

@@ -1,7 +1,7 @@
 """A job of the report: the name of a function and its arguments, so that any process can run it.
 
-A job returns rows: dicts of JSON values. A value whose key ends in "cost" is a time (see `spread`). All other values
-are the same in every run.
+A job returns rows, which are dicts of JSON values. A value whose key ends in "cost" is a time (see `spread`), which
+differs from run to run. All other values are the same in every run.
 """
 
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,9 @@
-"""Linkages under load, in this project's worlds: chains, a bridge, an arm of welds, and the gaps of their joints.
+"""Linkages under load, as worlds of this project: chains, a bridge, and an arm of welded rods.
 
 A linkage consists of rods and balls that are connected by joints, and hangs on a base. The base is a body that stays in
-place and may rotate at a constant speed. Lengths are in pixels, 32 per metre. The bodies pass through each other.
+place and may rotate at a constant speed. The bodies pass through each other. Lengths are in pixels, 32 per metre.
+
+The class Gaps measures how far the joints come apart.
 """
 
 from collections.abc import Sequence
@@ -63,7 +65,8 @@ def _row_of_rods(places: Sequence[Pair]) -> tuple[list[tuple[Pair, Pair]], list[
 def chain(ratio: float, share: float, count: int = 20) -> Linkage:
     """Return a straight chain of `count` rods with a ball at its end. The ball has the mass of `ratio` rods.
 
-    share: number of the case, 0..1. It determines the angle at the start, from level to 50 degrees down.
+    share: selects one of the cases, 0..1. The angle of the chain at the start grows with it, from level to 50 degrees
+    down.
     """
     angle = radians(50.0 * share)
     rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
@@ -74,8 +77,8 @@ def chain(ratio: float, share: float, count: int = 20) -> Linkage:
 def bridge(ratio: float, share: float, count: int = 20) -> Linkage:
     """Return a bridge of `count` rods in the form of a V, with a ball in its middle.
 
-    The ball has the mass of `ratio` rods. share: number of the case, 0..1. It determines the sideways velocity of the
-    ball at the start, from 0 to FASTEST.
+    The ball has the mass of `ratio` rods. share: selects one of the cases, 0..1. The sideways velocity of the ball at
+    the start grows with it, from 0 to FASTEST.
     """
     turn, places = radians(20.0), [(0.0, 0.0)]
     for k in range(count):
@@ -89,8 +92,8 @@ def bridge(ratio: float, share: float, count: int = 20) -> Linkage:
 def arm(share: float, count: int = 8) -> Linkage:
     """Return an arm of `count` welded rods on a rotating base.
 
-    The error of this linkage is the distance of the arm's tip from its ideal position. share: number of the case, 0..1.
-    It determines the angle at the start, from level to nearly a whole turn.
+    The error of this linkage is the distance of the arm's tip from its ideal position. share: selects one of the cases,
+    0..1. The angle of the arm at the start grows with it, from level to 320 degrees.
     """
     angle = radians(320.0 * share)
     rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
@@ -131,7 +134,7 @@ def poses_in(world: World) -> np.ndarray:
 
 
 class Gaps:
-    """Measurement of the widest gap of a linkage's judged pins.
+    """Measurement of the gaps of a linkage's judged pins, of which the widest is the error.
 
     The poses of the bodies may come from any physics engine.
     """

@@ -149,8 +149,8 @@ class RectsOnly(Plain):
 class Sorted(Plain):
     """The best pygame program that we know: sweep and prune in Python.
 
-    The sprites are sorted along x. Each sprite is tested only against later sprites in this order. The last of these
-    has a left edge that is left of the sprite's right edge. Source of the method: Cohen et al., I-COLLIDE, 1995.
+    The sprites are sorted by their left edges. Each sprite is tested only against those that follow it in this order
+    and whose left edge is left of its right edge. Source of the method: Cohen et al., I-COLLIDE, 1995.
     """
 
     def test(self) -> Hits:
@@ -245,9 +245,10 @@ class Recipe(Plain):
 
 
 class Way(NamedTuple):
-    """A way to find the hits.
+    """A way to find the hits among sprites.
 
-    make(Traffic): returns its Program; most: greatest number of sprites it is measured with.
+    make(traffic): function that returns a Program for a Traffic. most: greatest number of sprites with which the way is
+    measured.
     """
 
     make: Callable[[Traffic], Program]
@@ -272,7 +273,10 @@ WAYS = {
 
 
 def programs(traffic: Traffic) -> Iterator[tuple[str, Program]]:
-    """Yield (name, new Program) for every way that is measured with the number of sprites of `traffic`."""
+    """Yield (name of the way, new Program) for each way to find the hits of `traffic`.
+
+    A way that is too slow for this number of sprites is omitted (see Way.most).
+    """
     for name, way in WAYS.items():
         if traffic.count <= way.most:
             yield name, way.make(traffic)

@@ -157,9 +157,9 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the row size [bytes] of a buffer that is stored by columns; 1 for any other array, and 0 for no array.
+    """Return the row size of a buffer [bytes]: 0 if it is not an array, 1 for an array that is not stored by columns.
 
-    size: size of the buffer [bytes]; width: size of its array items [bytes], 0 for no array.
+    size: size of the buffer [bytes]; width: size of its array items [bytes], 0 if it is not an array.
     """
     return width if width % WORD == 0 and size > width else min(width, 1)
 

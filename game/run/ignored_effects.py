@@ -50,7 +50,7 @@ def sentences(scene: Scene) -> list[str]:
 def draw_ignored(frame: Frame, scene: Scene) -> None:
     """Write the sentences on ignored effects into a free corner of the game's part of a frame.
 
-    The sentences have the largest text that fits, and are below the game's top line. If no corner is free, they are at
+    They are written in the largest text that fits, below the game's top line. If no corner is free, they are written at
     the bottom left, over any text there.
     """
     shown_ignored = sentences(scene)

@@ -142,11 +142,11 @@ class Rewind:
                 self.raw.pop().pack()
 
     def _is_due(self, last):
-        """Return whether to take a key frame now: there are enough steps since the last one, and it is cheap.
+        """Return whether to take a key frame now.
 
-        last: Stretch of the last key frame. Enough: its steps took KEY_SECONDS (PLAIN times as long while kernels are
-        not compiled), or there are MOST_STEPS of them. Cheap: taking a key frame is expected to last at most DEAREST
-        [s], and at most half the time of these steps.
+        It is taken if the steps since the last one took KEY_SECONDS, or if there are MOST_STEPS of them. While kernels
+        are not compiled, these steps must take PLAIN times as long. Also, the key frame must be cheap. Its expected
+        time must be at most DEAREST [s], and at most half the time of these steps. last: Stretch of the last key frame.
         """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:

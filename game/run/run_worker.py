@@ -1,9 +1,9 @@
 """`python -m game.run.run_worker`: the measuring process of a played scene, which also plays the scene's recorded run.
 
-In addition to the orders of game.measure.worker, it accepts two orders with a recorded run. "prove" tests a setting on
-the whole run. A snapshot ("moment") with a run counts the encounters of bodies in the run so far, under every collision
-tier. Measurements from the snapshot follow as usual. If a run continues the previous one, only its new steps are
-played.
+It accepts the orders of game.measure.worker, and two more that contain a recorded run. The order "prove" tests a
+setting on the whole run. The order with a snapshot and a "run" first plays the run, and counts which bodies met in it
+under every collision tier. Then it measures the settings from the snapshot as usual. If the run continues the run of
+the previous order, only its new steps are played.
 """
 
 import json
@@ -34,9 +34,9 @@ class Follower:
         self.encounters = Encounters()
 
     def follow(self, run: RecordedRun, goes_on: Callable[[], bool]) -> dict[str, Verdicts]:
-        """Play the new steps of `run` while goes_on() is True. Return {collision tier: Verdicts} of the encounters.
+        """Play the new steps of `run` while goes_on() is True. Return {collision tier: Verdicts} of all encounters.
 
-        A run that does not continue the previous one, because of a restart or a rewind, is played from its start. The
+        After a restart or a rewind, the run does not continue the previous one. Then it is played from its start. The
         result is {} for a scene without collision tiers.
         """
         if self.run is None or self.player is None or not run.continues(self.run, self.steps):
@@ -55,9 +55,10 @@ class Follower:
 def measure_played(
     follower: Follower, order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]
 ) -> None:
-    """Report the encounters in the recorded run of an order, then measure its snapshot as worker.measure() does.
+    """Count the encounters in the recorded run of an order, then measure its snapshot as worker.measure() does.
 
-    follower: Follower of the run; report(line of JSON): called for each result. The work stops when goes_on() is False.
+    follower: Follower that plays the run; report(line of JSON): called for each result. The work stops when goes_on()
+    is False.
     """
     met = follower.follow(_loaded(order), goes_on)
     found = {tier: sent_verdicts(verdicts) for tier, verdicts in met.items()}

@@ -122,10 +122,10 @@ class StepInspector:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """Return (function, sentence) about the input of the next step of a session.
+    """Return (function, sentence): a function that returns the input of a session's next step, and its source in words.
 
-    The function returns the step's input. It must be called in the state before that step. The sentence names the
-    source of the input: the recorded steps of `rewind`, the bot, or the keys that are held now.
+    The function must be called in the state before that step. The source is the recorded steps of `rewind`, the bot, or
+    the keys that are held now.
     """
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
@@ -142,9 +142,9 @@ def photographed(world: WatchedWorld) -> dict[str, np.ndarray]:
 
 
 def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.ndarray]) -> Done:
-    """Return a stage with the changes that it made, as a Done. before, after: results of photographed().
+    """Return the changes that a stage made to the tables, as a Done.
 
-    Values are compared as bytes: NaN equals NaN, and -0.0 differs from 0.0.
+    before, after: results of photographed(). Values are compared as bytes: NaN equals NaN, and -0.0 differs from 0.0.
     """
     work = (after["work"] - before["work"]).tolist()
     counted = {name: count for name, count in zip(COUNTERS, work, strict=True) if count}

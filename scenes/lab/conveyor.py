@@ -313,9 +313,10 @@ class Conveyor(Scene):
         return Headline(sentence, "left: slower", number, unit, len(self.last), len(BELTS), "belts", good)
 
     def finding(self):
-        """Return a sentence with the greatest relative error of the last crate's speed on each belt.
+        """Return a sentence with the error of the crates' speed, as a percentage of the belt's speed.
 
-        It also gives the distance that crates have moved in the world without the effect.
+        The last crate on each belt is measured, and the greatest error of all belts is given. The sentence also gives
+        the distance that crates have moved in the world without the effect.
         """
         if not self.last:
             return "not yet: a crate has to come to the end of a belt that runs as it does now"

@@ -126,8 +126,9 @@ class Disagreement(Shooter):
         canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """Draw one collision tier's row: a bar with its share of wrong hits and the confidence interval, and missed
-        hits.
+        """Draw the row of one collision tier: its wrong hits as a bar, and its missed hits.
+
+        The bar shows the share of wrong hits among the reported hits, with its confidence interval.
         """
         wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
         if tier == self.reference.lit:

@@ -254,9 +254,7 @@ class Ladder(Scene):
         return Headline(sentence, "left right: sprite", number, unit, 1, 1, "sprites")
 
     def finding(self):
-        """Return a sentence with the empty share of the sprite's box, hull and outline, and the times of a test that
-        hits.
-        """
+        """Return a sentence on the sprite's box, hull and outline: how much of each is empty, and the time of a hit."""
         empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in IN_FINDING]
         names = [NAMES.get(tier, tier) for tier in IN_FINDING]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))

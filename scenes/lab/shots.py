@@ -85,10 +85,10 @@ def steps_of_flight(speed):
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Return a list of `count` snapshots, each of a world with the plate and one random shot that has just been fired.
+    """Return a list of `count` snapshots of the world. Each contains the plate and one shot that has just been fired.
 
-    kind: one of SHOTS; bullets have no plate; lane: argument `continuous` of the shots; speed: speed of the shots
-    [px/s]; plate: width of the plate [px]; random: random.Random.
+    The shots are random. kind: one of SHOTS; there is no plate for "bullets", which fly at each other. lane: argument
+    `continuous` of the shots; speed: speed of the shots [px/s]; plate: width of the plate [px]; random: random.Random.
     """
     if kind != "bullets":
         raise_plate(world, plate)

@@ -392,7 +392,10 @@ def inside(lane):
 
 
 def rod_ends(pose):
-    """Return both ends of a rod's core, each as integers (x, y) [px]. pose: (x, y, angle) of the rod [px, rad]."""
+    """Return both ends of a rod's centre line, each as integers (x, y) [px].
+
+    pose: (x, y, angle) of the rod [px, px, rad].
+    """
     x, y, angle = pose
     dx, dy = ROD_HALF * cos(angle), ROD_HALF * sin(angle)
     return (round(x - dx), round(y - dy)), (round(x + dx), round(y + dy))

@@ -76,9 +76,10 @@ class Rubble:
 
 
 def _source(part, before, mask, parent):
-    """Return the `source` of the Piece of a new fragment. part: body of the fragment.
+    """Return the position (x, y) [px] of a new fragment's pixels in its original picture (see Piece.source).
 
-    before: the Piece from which it was carved; mask: mask of that piece before the carve; parent: body of that piece.
+    part: body of the fragment. It was carved off a piece, of which these arguments are the state before the carve.
+    before: its Piece; mask: its mask; parent: its body.
     """
     (own,) = part.shapes
     x, y = parent.to_local(part.position)

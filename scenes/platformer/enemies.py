@@ -48,9 +48,9 @@ class Creature:
 
 
 class Walker(Creature):
-    """A walker or hedgehog, which walks to and fro around the x `home`, and turns at walls and crates.
+    """A walker or hedgehog, which walks to and fro and turns at walls and crates.
 
-    A platform that carries it also moves `home`.
+    home: x of the middle of its range [px], which moves with a platform that carries the enemy.
     """
 
     def __init__(self, world, thing, way):

@@ -16,8 +16,9 @@ FAR = 1e5  # [px] beyond any map
 class Kind:
     """Requirements for one kind of object in a map. least, most: allowed number of such objects.
 
-    properties: tuples (name, type, least value or tuple of the allowed values, greatest value, whether the property is
-    required).
+    properties: a tuple (name, type, least, most, needed) for each property of the object. least, most: limits of a
+    number, or of the length of a text. For a text with fixed choices, `least` is the tuple of these choices. needed:
+    whether the property is required.
     """
 
     least: int = 0

@@ -18,9 +18,10 @@ READY = steps(3.0)  # steps of the stage's title, before its clock begins
 class Director:
     """The director, which launches the waves and the bosses of a stage.
 
-    clock: time of the stage [steps]; wave, number: name and number of the latest wave; mode: "ready", then "run"; for
-    a boss or mid-boss "clearing", "warning", "leader", "rest"; after the boss "over"; since: steps in the current
-    mode.
+    clock: time of the stage [steps]; wave: name of the latest wave; number: its number.
+
+    mode: "ready" before the stage begins, and then "run". For a mid-boss or boss, the modes "clearing", "warning",
+    "leader" and "rest" follow each other. After the boss, the mode is "over". since: steps in the current mode.
     """
 
     def __init__(self, stage):

@@ -41,8 +41,8 @@ VOLLEYS = (
 class Plane:
     """The player's plane.
 
-    bodies: {"core", "hull" and "ring": Body}, empty between two lives; power: level of its volley, 1..TOP_POWER; safe:
-    remaining steps in which the plane cannot be hit.
+    bodies: {part: Body} with the parts "core", "hull" and "ring"; empty between two lives. power: level of its volley,
+    1..TOP_POWER; safe: remaining steps in which the plane cannot be hit.
     """
 
     def __init__(self, world, tier):

@@ -119,7 +119,7 @@ class Shooter(Scene):
 
     @property
     def own_hits(self):
-        """Numbers of hits of the player's plane so far, {"core", "hull" and "box": count}."""
+        """{part: number of hits so far} for three parts of the player's plane: "core", "hull" and "box"."""
         return self.hits.count
 
     @property

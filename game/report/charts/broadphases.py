@@ -163,8 +163,8 @@ def _jobs(scope: ReportScope) -> list[Job]:
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
     """Return (p, standard error of p) of a fit in which the cost of a broad phase grows as n^p.
 
-    The fit uses the rows of a series in a panel that have at least FROM bodies. Return None for fewer than three
-    numbers of bodies, for which there is no standard error.
+    The fit uses the rows of one series in one panel, for worlds of at least FROM bodies. Return None if there are fewer
+    than three of them, because the standard error needs three.
     """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
@@ -183,9 +183,10 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield the claims of papers about broad phases, each as a Claim with its verdict, at NAIVE_LIMIT bodies.
+    """Yield a Claim for each statement of papers about broad phases, tested on worlds of NAIVE_LIMIT bodies.
 
-    rows: measured rows of the chart. NAIVE_LIMIT is the largest size at which the test of every pair is measured.
+    NAIVE_LIMIT is the largest number of bodies at which the test of every pair is measured. rows: measured rows of the
+    chart.
     """
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 

@@ -1,8 +1,8 @@
-"""Chart 11: predictability of a run. A bullet strikes a pyramid.
+"""Chart 11: predictability of a run in which a bullet strikes a pyramid.
 
-The bullet's start position is shifted a little from run to run. The shifts are multiples of 1e-9 px. There is no
-reference. The chart shows the time at which the runs diverge, and their distance at the end (Chung and Pollard 2016
-call it predictability).
+The bullet's start position is shifted a little from run to run, by multiples of 1e-9 px. The chart shows the time at
+which the runs diverge, and their distance at the end (Chung and Pollard 2016 call it predictability). A chaotic motion
+has no reference.
 """
 
 from collections.abc import Sequence
@@ -34,8 +34,8 @@ def _world(solver, substeps, aside):
 def measure(seeds: int) -> list[Row]:
     """Return a row for each setting: the time at which runs from shifted starts diverge, and their distance at the end.
 
-    A run has diverged when the RMS distance of its bodies from those of the run from the unshifted start is a pixel.
-    seeds: number of runs from shifted starts.
+    Each run is compared with a run from the unshifted start. The runs have diverged when the RMS distance between the
+    same bodies exceeds a pixel. seeds: number of runs from shifted starts.
     """
     rows, steps = {}, {}
     for solver, substeps in WAYS:

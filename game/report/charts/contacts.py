@@ -36,18 +36,19 @@ def square_mask() -> PixelMask:
 
 
 def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exact (normals (n, 2), depths (n,) [px]) of a disc at the origin against discs of the same size.
+    """Return the exact normals and depths of contacts between a disc at the origin and discs of the same size.
 
-    offset: (n, 2) positions of the other discs [px].
+    offset: (n, 2) positions of the other discs [px]. Shapes of the result: normals (n, 2), depths (n,) [px].
     """
     length = np.hypot(*offset.T)
     return offset / length[:, None], 2.0 * RADIUS - length
 
 
 def of_square(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exact (normals (n, 2), depths (n,) [px]) of an upright square at the origin against discs.
+    """Return the exact normals and depths of contacts between an upright square at the origin and discs.
 
-    offset: (n, 2) positions of the discs [px], outside the square.
+    offset: (n, 2) positions of the discs [px], outside the square. Shapes of the result: normals (n, 2), depths (n,)
+    [px].
     """
     nearest = np.clip(offset, -RADIUS, RADIUS)
     away = offset - nearest
@@ -101,10 +102,10 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return a row with the errors of the contacts that a batch of pairs finds.
+    """Return a row of the chart: the errors of the contacts that the narrow phase finds for a batch of pairs.
 
-    For each pair, the deepest manifold is used. body, name: panel and series of the row; normals, depths: exact normal
-    and depth [px] of each pair.
+    If a pair has several manifolds, the deepest is used. body: panel of the row; name: series of the row. normals,
+    depths: exact normal and depth [px] of the contact of each pair.
     """
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]

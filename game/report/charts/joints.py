@@ -166,7 +166,10 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def times_wider(wide: Row, narrow: Row) -> tuple[float, float, float]:
-    """Return (low, middle, high) of the ratio of the errors of two rows, computed for each case."""
+    """Return (least, median, greatest) of the ratio of the errors of two rows, wide / narrow.
+
+    There is one ratio for each case of the scene.
+    """
     ratios = [max(a, LEAST) / max(b, LEAST) for a, b in zip(wide["cases"], narrow["cases"], strict=True)]
     return min(ratios), median(ratios), max(ratios)
 

@@ -25,9 +25,11 @@ AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return those of `tried` random poses of two sprites (PixelMasks) at which their exact distance is less than BAND.
+    """Return random poses of two sprites (PixelMasks) that are nearly touching.
 
-    Raises ValueError for fewer than LEAST_EACH hits or misses.
+    The sprites are less than BAND apart, or overlap by less than BAND, by the exact distance. tried: number of poses
+    that are drawn; those outside the band are discarded. Raises ValueError if fewer than LEAST_EACH hits or misses are
+    left.
     """
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]

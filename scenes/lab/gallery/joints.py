@@ -127,7 +127,7 @@ def gap_of_doll(side):
 
 
 def limits_text(side):
-    """Return as text the greatest angle by which a hinge has exceeded its limits so far.
+    """Return the greatest angle by which a hinge has exceeded its limits so far, as text.
 
     side: one of the page's two worlds (page.Side).
     """
@@ -189,10 +189,10 @@ def load_bridge(side):
 
 
 def off_the_load(side):
-    """Return the error of the load at which the bridge breaks, as a percentage of the breaking load by statics.
+    """Return the error of the load at which the bridge breaks [% of the breaking load by statics].
 
-    While the bridge holds, it is the excess over the breaking load, or 0 below it. side: one of the page's two worlds
-    (page.Side).
+    While the bridge holds, the error is the amount by which the present load exceeds the breaking load. It is 0 below
+    the breaking load. side: one of the page's two worlds (page.Side).
     """
     kept = side.kept
     excess = 100.0 * (kept["load"] / kept["strongest"] - 1.0)
@@ -201,7 +201,7 @@ def off_the_load(side):
 
 
 def load_text(side):
-    """Return as text the load that the bridge holds, or the load at which it broke.
+    """Return the load that the bridge holds, or the load at which it broke, as text.
 
     side: one of the page's two worlds (page.Side).
     """

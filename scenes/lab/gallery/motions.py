@@ -186,7 +186,7 @@ def slowed(side):
 
 
 def hop_text(side):
-    """Return as text the greatest height to which a sliding body has hopped.
+    """Return the greatest height to which a sliding body has hopped, as text.
 
     side: one of the page's two worlds (page.Side).
     """

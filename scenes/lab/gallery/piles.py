@@ -125,8 +125,8 @@ def build_load(side):
 def take_away(side):
     """Remove the load before step GONE. side: one of the page's two worlds (page.Side).
 
-    If the Way of the side is FORCES_KEPT, the load is moved far away by writing its x instead. Then the other contacts
-    keep their impulses of the last step.
+    A side with the Way FORCES_KEPT does not remove the load but sets its x to a far position. In this way, the other
+    contacts keep their impulses of the last step.
     """
     if side.steps != GONE:
         return
@@ -139,7 +139,7 @@ def take_away(side):
 
 
 def rise(side):
-    """Return the height of the upper crate above its starting position since the load was removed [mm].
+    """Return the height by which the upper crate has risen since the load was removed [mm].
 
     It is 0 before that. side: one of the page's two worlds (page.Side).
     """

@@ -80,7 +80,7 @@ class Doll(Machine):
             self.excess = max(self.excess, float(over.max(initial=0.0)))
 
     def figure(self):
-        """Return as text the greatest angle by which a joint has exceeded its limits."""
+        """Return the greatest angle by which a joint has exceeded its limits, as text."""
         return f"{degrees(self.excess):.2f} deg over limits"
 
     def figures(self):
