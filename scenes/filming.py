@@ -89,7 +89,7 @@ SHOTS = {
 
 @dataclass(frozen=True)
 class Clip:
-    """A part of the moving picture: the bot's game from a moment on, with overlays that are switched on one by one.
+    """A part of the moving picture: the bot's game from a moment on. Overlays are switched on one by one.
 
     parts: a tuple of (number of steps, names of the overlays that are on).
     """

@@ -1,4 +1,4 @@
-"""Stills: the pictures of docs/pictures, taken of the screen on which a scene is played, with its measurements.
+"""Stills: the pictures of docs/pictures. They show scenes as they are played, with their measurements.
 
 python -m scenes.stills docs/pictures            all of them; needs a minute for each that shows measured times
 python -m scenes.stills docs/pictures masks      the named ones

@@ -71,6 +71,9 @@ class FragmentPicture:
 
 
 def _beside(pixels):
-    """Return the pixels that have an upper, lower, left or right neighbour in `pixels`. Both are bool arrays."""
+    """Return a bool array of the pixels that have at least one neighbour in `pixels`, also a bool array.
+
+    The neighbours are the pixels above, below, left and right.
+    """
     padded = np.pad(pixels, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

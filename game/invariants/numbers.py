@@ -46,10 +46,10 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """Return (ids of bodies, value, quantity) of the first reported number that is not finite; None if all are finite.
+    """Check that all reported numbers are finite. Return None if they are, otherwise (ids of bodies, value, quantity).
 
-    sleeping: True also checks the table world.sleeping_contacts. The AABB of a shape without a solid part extends from
-    +inf to -inf, which is allowed.
+    The result is about the first number that is not finite. sleeping: True also checks the table
+    world.sleeping_contacts. The AABB of a shape without a solid part extends from +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -70,9 +70,10 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 
 
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
-    """Return (ids of bodies, error, quantity) of the first normal that is not of unit length; None if all are.
+    """Check that all normals are of unit length. Return None if they are, otherwise (ids of bodies, error, quantity).
 
-    error: absolute error of the squared length. sleeping: True also checks the table world.sleeping_contacts.
+    The result is about the first wrong normal. error: absolute error of its squared length. sleeping: True also checks
+    the table world.sleeping_contacts.
     """
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):

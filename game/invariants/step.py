@@ -49,12 +49,12 @@ class Step:
 
     @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
-        """(rows of the bodies A, rows of the bodies B) of the contacts, two arrays of row indices."""
+        """Bodies of the contacts: (rows of the bodies A, rows of the bodies B), two arrays of row indices."""
         return self.rows_of(self.contacts["body_a"]), self.rows_of(self.contacts["body_b"])
 
     @cached_property
     def linked(self) -> tuple[np.ndarray, np.ndarray]:
-        """(rows of the bodies A, rows of the bodies B) of the joints that acted in the step, two arrays of row indices.
+        """Bodies of the joints that acted in the step: (rows of the bodies A, rows of the bodies B), two index arrays.
 
         The row of the world is -1. Joints that broke in the step are included.
         """
@@ -65,7 +65,7 @@ class Step:
         return np.where(a < 0, -1, self.rows_of(a)), np.where(b < 0, -1, self.rows_of(b))
 
     def rows_of(self, ids: np.ndarray) -> np.ndarray:
-        """Return the indices of the rows of the bodies with the given ids, in the world's table of bodies."""
+        """Return the row indices of bodies in the world's table of bodies. ids: ids of the bodies."""
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:

@@ -57,7 +57,7 @@ def still_there(world: World, touch: Touch) -> bool:
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """Return the results of all stages of the last step for the two shapes of `touch`, one Part for each stage.
+    """Return one Part for each stage of the last step: the result of this stage for the two shapes of `touch`.
 
     Raises ValueError if the shapes do not touch.
     """

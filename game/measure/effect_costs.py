@@ -52,7 +52,11 @@ class EffectCost(NamedTuple):
 
     @property
     def noise(self) -> float:
-        """Noise of the price [s]: the sum of (median - least time of a step) with the effect and without it."""
+        """Noise of the price [s].
+
+        For the steps with the effect, and for those without it, the noise is the median minus the least time. The
+        result is the sum of both.
+        """
         return sum(each.median - each.least for each in (self.cost, self.without) if each is not None)
 
 

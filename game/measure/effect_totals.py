@@ -1,8 +1,8 @@
 """The total cost of a scene's effects for three choices: as declared, every effect, and the fewest possible.
 
-Four figures are measured for each choice. They are the time of a step, the number of kernels, the time of the first
-step in a new process, and the bytes of the tables. The fewest possible effects include the declared effects that the
-world needs.
+The fewest possible effects include the declared effects that the world needs. Four figures are measured for each
+choice: the time of a step, the number of kernels, the time of the first step in a new process, and the bytes of the
+tables.
 """
 
 import json
@@ -77,10 +77,11 @@ def measure_totals(
     goes_on: Callable[[], bool],
     seed: int = 0,
 ) -> None:
-    """Time a step under each choice of effects in several rounds of random order, and count the bytes of its world.
+    """Time a step under each choice of effects. Also count the bytes of the world's arrays for each choice.
 
-    sides: result of choices_of(moment). report(name, {field of EffectTotal: value}) is called with the bytes first, and
-    with the times after each round. The function returns early when goes_on() is False. seed: seed of the random order.
+    The steps are timed in several rounds, each in random order. sides: result of choices_of(moment). report(name,
+    {field of EffectTotal: value}) is called with the bytes first, and with the times after each round. The function
+    returns early when goes_on() is False. seed: seed of the random order.
     """
     chance = Random(seed)
     spent: dict[str, list[float]] = {name: [] for name in sides}
@@ -161,10 +162,10 @@ def _slots(kind):
 
 
 def bars_of(totals: Mapping[str, EffectTotal]) -> list[BarRow]:
-    """Return the rows of a table of bars: a row for each choice of effects, a column for each of FIELDS.
+    """Return the rows of a table of bars. There is a row for each choice of effects, and a column for each of FIELDS.
 
-    The text of a time is "same" if it differs from the declared choice's time by less than the noise of both. The text
-    of a missing value is "...".
+    The text of a time is "same" if its difference from the time of the declared choice is less than the noise of both.
+    The text of a missing value is "...".
     """
     declared = totals.get(DECLARED, EffectTotal(0))
     rows = []

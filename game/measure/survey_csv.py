@@ -1,4 +1,7 @@
-"""A survey as CSV. Each row is one kind of error of one setting, with the command that repeats its measurement."""
+"""A survey of settings as CSV: one row for each setting and each kind of error.
+
+A row also contains the command that repeats the measurement.
+"""
 
 import csv
 import io

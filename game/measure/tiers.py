@@ -24,9 +24,9 @@ REPEATS = 3  # tests of a batch per run: 40 us alone would be short for a clock
 
 
 class TierFigures(NamedTuple):
-    """Figures of one collision tier (kind of collision shape) for a pair of sprites, compared with the exact masks.
+    """Cost and error rates of one collision tier (kind of collision shape), measured for two sprites.
 
-    Times of tests are in seconds per pair.
+    The reference is the exact test of the sprites' masks. Times of tests are in seconds per pair.
     """
 
     tier: str

@@ -1,4 +1,7 @@
-"""Times of the stages of a step, as a scrolling stacked graph, with the counters of the last step beside it."""
+"""Times of the stages of a step, drawn as a scrolling stacked graph.
+
+The counters of the last step are shown beside the graph.
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple

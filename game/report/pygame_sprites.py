@@ -101,9 +101,10 @@ def hits_of_groupcollide(group: Any) -> Hits:
 
 
 class Program(ABC):
-    """Base class of programs that play the frames of a Traffic, one frame per call of play(), starting with frame 1.
+    """Base class of programs that play the frames of a Traffic. Each call of play() plays one frame.
 
-    hits: the pairs that share a pixel in the last frame, in the program's own form; found(): the same pairs as Hits.
+    The first call plays frame 1. hits: the pairs that share a pixel in the last frame, in the program's own form;
+    found(): the same pairs as Hits.
     """
 
     def __init__(self, traffic: Traffic) -> None:

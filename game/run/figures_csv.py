@@ -18,10 +18,10 @@ from game.startup import start_line
 
 
 class Figure(NamedTuple):
-    """One row of the CSV file. of: source of the number, which is "headline", "goal", "finding", "own hits", "run", ...
+    """One row of the CSV file.
 
-    value: a number or a text; low, high: interval of the value, "" for none. For times, they are the least time and the
-    upper quartile.
+    of: source of the number, which is "headline", "goal", "finding", "own hits", "run", ...; value: a number or a text.
+    low, high: interval of the value, "" for none. For times, they are the least time and the upper quartile.
     """
 
     of: str

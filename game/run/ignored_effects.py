@@ -30,7 +30,7 @@ def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
 
 
 def ignored_effects(scene: Scene) -> list[str]:
-    """Return the names of all effects that a world of the scene declares and that this world's solver ignores."""
+    """Return the names of the effects that the scene's solvers ignore, although a world of the scene declares them."""
     return in_order({name for names in ignored_by_solver(scene.worlds).values() for name in names})
 
 

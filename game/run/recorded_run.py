@@ -147,7 +147,10 @@ class Overview(NamedTuple):
 
 
 class Encounters:
-    """The pairs of bodies that have met so far in a run, under every collision tier (kind of collision shape)."""
+    """The pairs of bodies that have met in a run so far. They are counted for every collision tier.
+
+    A collision tier is a kind of collision shape, so different tiers may report different pairs.
+    """
 
     def __init__(self) -> None:
         self.met: dict[str, set[tuple[int, int]]] = {}
@@ -214,7 +217,7 @@ def busiest(work: np.ndarray) -> int:
 
 
 def seconds_of_steps(run: RecordedRun, changes: Changes) -> np.ndarray:
-    """Return (steps,) time [s] that the physics of each step of a run took, with the given changes applied."""
+    """Play a run with the given changes, and return the time [s] of the physics in each step: (steps,)."""
     with undisturbed():
         spent = [sum(sum(w.profile.stages.values()) for w in scene.worlds) for scene in run.play(changes)]
     return np.array(spent)

@@ -19,7 +19,10 @@ SHORTEST = 120  # frames: shorter runs are not kept
 
 
 def replays_folder() -> Path:
-    """Return the path of the folder of replays that the player keeps. Replays from other people belong there, too."""
+    """Return the path of the folder of replays that the player has decided to keep.
+
+    Replays from other people belong there, too.
+    """
     return data_folder() / "replays"
 
 

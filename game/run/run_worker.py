@@ -25,7 +25,10 @@ LOOK_EVERY = 12  # steps between two looks at the touching pairs
 
 
 class Follower:
-    """Player of a recorded run that grows. It counts the encounters of bodies under every collision tier."""
+    """Player of a recorded run that becomes longer while it is played. It counts which bodies meet in the run.
+
+    The encounters are counted for every collision tier (kind of collision shape).
+    """
 
     def __init__(self) -> None:
         self.run: RecordedRun | None = None

@@ -65,9 +65,9 @@ def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str
 
 
 def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
-    """Return (effects, solver) of each kind of world that a scene may build. A solver of None means World's default.
+    """Return a list of (effects, solver), one for each kind of world that a scene may build.
 
-    chosen: the user's choice of solver, or None.
+    A solver of None means World's default. chosen: the user's choice of solver, or None.
     """
     names = solvers_of(scene_class, chosen)
     others = [(each, name if each.stacking else None) for each in scene_class.other_effects for name in names]

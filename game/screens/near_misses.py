@@ -47,7 +47,10 @@ class Miss(NamedTuple):
 
 
 def flight_x(time: float) -> float:
-    """Return the x [px] of the player's plane at a time [s], from the left edge of its half of the split screen."""
+    """Return the x [px] of the player's plane at a time [s].
+
+    It is measured from the left edge of the plane's half of the split screen.
+    """
     return HALF / 2 + SWING * sin(2 * pi * time / WEAVE)
 
 

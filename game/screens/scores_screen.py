@@ -1,4 +1,4 @@
-"""High scores: one page for each ranked scene, and one for each of the player's own levels that was played.
+"""High scores: one page for each ranked scene, and one for each level of the player that was played.
 
 The left and right keys change the page.
 """

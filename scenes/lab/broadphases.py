@@ -251,7 +251,7 @@ class Broadphases(Scene):
 
 
 def bounce(world):
-    """Reverse the velocity component of each body that is beyond an edge of the picture and moves away from it."""
+    """Reflect the bodies that have left the picture: reverse the velocity component that leads them further away."""
     bodies = world.bodies
     for place, speed, low, high in (("x", "vx", 0.0, WIDTH), ("y", "vy", 0.0, HEIGHT)):
         position, velocity = bodies[place], bodies[speed]

@@ -1,4 +1,7 @@
-"""The yard of lab/effects: a world with so many kinds of bodies that each effect of the engine acts on at least one."""
+"""The yard of lab/effects: a world with many kinds of bodies.
+
+Each effect of the engine acts on at least one of them.
+"""
 
 from dataclasses import dataclass
 from math import sqrt

@@ -321,8 +321,9 @@ class Carving(Scene):
         return Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
 
     def finding(self):
-        """Return a sentence with the share of the ground's tiles that the last carve rebuilt, and the number of lost
-        pixels.
+        """Return a sentence on the last carve: the number of tiles of the ground that it rebuilt.
+
+        The sentence also gives the numbers of pixels that were removed and lost so far.
         """
         if not self.carves:
             return "not yet: something has to be carved"

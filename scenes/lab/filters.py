@@ -46,9 +46,9 @@ BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
 class Filters(Scene):
-    """Scene with one world: a grid of pairs of discs. Each row and each column of the grid represents a kind of body.
+    """Scene with one world: a grid of cells with two discs each. Each row and each column represents a kind of body.
 
-    A cell of the grid holds a disc of the row's kind and a disc of the column's kind.
+    A cell holds a disc of the row's kind and a disc of the column's kind.
     """
 
     name = "lab/filters"

@@ -50,7 +50,7 @@ PHASES = 5  # moments at which bots of different seeds drag and break
 
 
 class Joints(Scene):
-    """Scene with two worlds that hold the same machine, one for each tier of joint solvers."""
+    """Scene with two worlds that hold the same machine. Each world has another solver for joints."""
 
     name = "lab/joints"
     title = "Joints"
@@ -268,7 +268,7 @@ class Joints(Scene):
         return Headline(sentence, "up down: solver", number, unit, self.since, KEPT, "steps", loose < FINE)
 
     def finding(self):
-        """Return a sentence with the widest gap of a joint with each joint solver, and the cost of each solver.
+        """Return a sentence with two figures for each joint solver: the widest gap of a joint, and the time of a step.
 
         The gaps count from the time at which the machine was built.
         """

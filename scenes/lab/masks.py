@@ -242,8 +242,9 @@ class Masks(Scene):
         return Headline(sentence, "arrows: move", f"{wrong} of {len(TIERS)}", unit, self.steps, 1, "steps", not wrong)
 
     def finding(self):
-        """Return a sentence with the box's share of false hits, and the times of a hit with the box and with exact
-        pixels.
+        """Return a sentence with the share of the box's hits that are false, and two times of a test that hits.
+
+        The times are those of the box and of the exact pixels.
         """
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:

@@ -1,4 +1,4 @@
-"""Pictures of carved masks: the pixels that remain of a mask are cut out of the picture of the whole mask."""
+"""Pictures of carved masks. The remaining pixels of a mask are cut out of the picture of the whole body."""
 
 from functools import lru_cache
 from math import cos, pi, sin

@@ -435,7 +435,7 @@ PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", 
 
 
 def bounce(world):
-    """Reverse the velocity component of each body that is beyond an edge of the picture and moves away from it."""
+    """Reflect the bodies that have left the picture: reverse the velocity component that leads them further away."""
     bodies = world.bodies
     for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
         outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))

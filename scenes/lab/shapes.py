@@ -113,8 +113,9 @@ class Shapes(Scene):
 
     @property
     def step_shown(self):
-        """Iteration of GJK or EPA that is drawn, an element of shape_traces.gjk_steps(), or None if that list is
-        empty.
+        """The iteration of GJK or EPA that is drawn; None if there is none.
+
+        It is an element of the list that shape_traces.gjk_steps() returns.
         """
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 

@@ -80,7 +80,7 @@ def raise_plate(world, width, middle=0.0):
 
 
 def steps_of_flight(speed):
-    """Return the number of steps of 1/60 s that a shot of `speed` [px/s] needs from the gun to the end of the lane."""
+    """Return how many steps of 1/60 s a shot needs from the gun to the end of the lane. speed: its speed [px/s]."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 

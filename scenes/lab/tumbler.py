@@ -146,10 +146,10 @@ class Tumbler(Scene):
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def ways(self):
-        """Return {label: run name} of the runs to measure: with the current number of substeps, and with another
-        number.
+        """Return {label: run name} of the runs to measure.
 
-        A solver without substeps has one run only.
+        There is a run with the current number of substeps, and one with another number. A solver without substeps has
+        only one run.
         """
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)

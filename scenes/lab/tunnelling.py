@@ -354,8 +354,9 @@ class Tunnelling(Scene):
         return Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
 
     def finding(self):
-        """Return a sentence with each lane's number of missed shots, out of the shots that had to hit, and its time of
-        a step.
+        """Return a sentence with two figures for each lane: the missed shots, and the time of a step.
+
+        The missed shots are given as a number out of all shots that had to hit.
         """
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}

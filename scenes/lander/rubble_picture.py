@@ -80,9 +80,10 @@ class Cut:
 
 
 def _beside(gone):
-    """Return a bool array of the pixels that have a pixel of `gone` above, below, left or right of them.
+    """Return a bool array of the pixels that have at least one neighbour in `gone`.
 
-    gone: bool array (height, width); the result has the same shape.
+    The neighbours are the pixels above, below, left and right. gone: bool array (height, width); the result has the
+    same shape.
     """
     padded = np.pad(gone, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -367,6 +367,9 @@ class Platformer(Scene):
 
 
 def others(rows, identity):
-    """Return the set of ids of all bodies that form a pair with the body `identity` in `rows`, a table of events."""
+    """Return the ids of all bodies that form a pair with the body `identity`, as a set.
+
+    rows: a table of events, which contains the pairs.
+    """
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

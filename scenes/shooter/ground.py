@@ -178,7 +178,10 @@ def scar(size):
 
 
 def tile(surface, picture, x, y):
-    """Fill the surface with copies of a picture side by side. x, y: upper left corner of one of the copies [px]."""
+    """Fill the surface with copies of a picture, side by side.
+
+    x, y: upper left corner of one of the copies [px].
+    """
     width, height = picture.get_size()
     wide, high = surface.get_size()
     start = whole(y) % height - height

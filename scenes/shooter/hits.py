@@ -49,8 +49,9 @@ class Hits:
 
 
 def partners(events, identity):
-    """Return a list of the ids of all bodies that form a pair with the body `identity` in `events`, a
-    table of events.
+    """Return the ids of all bodies that form a pair with the body `identity`, as a list.
+
+    events: a table of events, which contains the pairs.
     """
     if not len(events):
         return []
@@ -59,7 +60,7 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return an array with the ids of the enemies and bullets whose bounding box overlapped a body's bounding box.
+    """Return the ids of the enemies and bullets whose bounding boxes overlapped the box of a body, as an array.
 
     The boxes of the last step are compared. identity: id of the body.
     """

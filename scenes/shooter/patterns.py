@@ -1,8 +1,7 @@
-"""Fire of the bosses: functions that compute the headings of bullets, and a Gun that fires one Pattern of a stage
-file.
+"""Fire of the bosses: functions that compute the headings of bullets, and the class Gun.
 
-The patterns "aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the whole picture. All
-bullets of a "stream" follow the heading of the first one.
+A Gun fires one Pattern of a stage file. The patterns "aimed", "lead" and "fan" target the player; "ring", "spiral" and
+"wall" fill the whole picture. All bullets of a "stream" follow the heading of the first one.
 """
 
 from math import atan2, hypot, pi, radians, sin

@@ -27,12 +27,13 @@ MOST_FIRE = 1000  # bullets per second of a phase, over all its patterns
 
 @dataclass(frozen=True)
 class Group:
-    """Planes of one kind that enter one after another.
+    """A group of planes of one kind, which enter one after another.
 
-    kind: their kind; places: for each plane, its position along the edge at which it enters (0..1); after: time of the
-    first plane [s]; every: time between planes [s]; carries: item that the last plane drops, or "". Only some kinds
-    use the other fields. hover: y at which a plane stops [px]; sway: amplitude of its weaving [px]; side: edge at
-    which it enters; bend: angle of its arc [deg].
+    kind: kind of the planes; places: for each plane, its position along the edge at which it enters (0..1); after: time
+    of the first plane [s]; every: time between planes [s]; carries: item that the last plane drops, or "".
+
+    Only some kinds use the other fields. hover: y at which a plane stops [px]; sway: amplitude of its weaving [px];
+    side: edge at which it enters; bend: angle of its arc [deg].
     """
 
     kind: str
@@ -48,8 +49,9 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """The firing pattern of one gun. shoot: kind of fire ("aimed", "fan", ...), which decides which other fields are
-    used.
+    """The firing pattern of one gun.
+
+    shoot: kind of fire ("aimed", "fan", ...). It decides which of the other fields are used.
 
     The first shot is fired after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
     waits for another `rest` [s]. faster: increase of the speed from each shot of a burst to the next [px/s]. muzzles:

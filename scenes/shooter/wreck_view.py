@@ -1,4 +1,4 @@
-"""Pictures of the pieces of broken planes: cut out of the plane's picture, with shadows, and smaller as they fall."""
+"""Pictures of the pieces of broken planes. Each is cut out of the plane's picture, and becomes smaller as it falls."""
 
 import numpy as np
 import pygame

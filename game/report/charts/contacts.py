@@ -1,4 +1,4 @@
-"""Chart 2: cost of a contact, and the errors of its normal and depth, for each tier of collision shape.
+"""Chart 2: cost and accuracy of a contact for each tier of collision shape. The errors are those of normal and depth.
 
 The reference is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of these
 shapes. The outline of the pixels cannot be the reference, because its normals have only four directions.

@@ -31,9 +31,9 @@ def round_poses(world: World) -> None:
 
 
 def measure(solver: SolverName) -> list[Row]:
-    """Return two rows for each distance from the origin: one with poses in float64, one with poses rounded to float32.
+    """Return two rows for each distance from the origin: poses stored in float64, and poses rounded to float32.
 
-    A row contains the greatest distance of a box from its position in the run at the origin, and the overlap. Poses are
+    A row contains the overlap, and the greatest distance of a box from its position in the run at the origin. Poses are
     rounded after every step. Only the float64 rows have a time, because no solver works in float32.
     """
     steps, rows, near = {}, {}, None

@@ -57,9 +57,10 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error [px] of a ball that bounces with restitution 1: its change of energy, as a height.
+    """Return the error [px] of a ball that bounces with restitution 1. It should keep its energy.
 
-    position, velocity: state of the ball after SECONDS, relative to the start.
+    The error is the change of energy, expressed as a height. position, velocity: state of the ball after SECONDS,
+    relative to the start.
     """
     return abs(position.y - 0.5 * velocity.y**2 / G)
 

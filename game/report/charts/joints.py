@@ -85,7 +85,7 @@ def settings_of(quick: bool) -> list[Setting]:
 
 
 def run_case(setting: Setting, linkage: Linkage, steps: int = STEPS) -> tuple[float, float]:
-    """Return (greatest error [px], mean time of a step [s]) of a linkage, run from its start with one setting."""
+    """Run a linkage from its start with one setting. Return (greatest error [px], mean time of a step [s])."""
     step, poses = setting.started(linkage)
     gaps, worst, spent = Gaps(linkage, poses()), 0.0, 0.0
     for _ in range(steps):

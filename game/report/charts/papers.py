@@ -52,9 +52,9 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """Return the mean number of GJK iterations per call of the time-of-impact search, a row for each number of corners.
+    """Return a row for each number of corners: the mean number of GJK iterations per time-of-impact search.
 
-    The bodies are polygons that fly and rotate.
+    The searches are made for polygons that fly and rotate.
     """
     rows = []
     for corners in (4, 8, 16):
@@ -87,7 +87,10 @@ def measure_iterations() -> list[Row]:
 
 
 def measure_events() -> list[Row]:
-    """Return two rows with the cost of a step of a pyramid, one with and one without events for persisting contacts."""
+    """Return two rows with the cost of a step of a pyramid: with the effect `persist`, and without it.
+
+    This effect reports an event in every step for each contact that persists.
+    """
     worlds = {}
     for name, effects in (("without", EFFECTS), ("with", EFFECTS.with_(persist=True))):
         world = world_of(pyramid(20), "soft_step", 4, effects)

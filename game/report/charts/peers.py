@@ -85,10 +85,10 @@ def _steps_of(space: Any, divisions: int) -> None:
 
 
 def measure_piles(rows: int) -> list[Row]:
-    """Return a row for each engine and setting: overlap of a pyramid after two seconds, and time of a step of 1/60 s.
+    """Return a row for each engine and setting: the overlap of a pyramid after two seconds, and the time of a step.
 
-    rows: number of rows of the pyramid. Each setting starts from a new pyramid. Raises ModuleNotFoundError if pymunk is
-    missing.
+    A step is 1/60 s. rows: number of rows of the pyramid. Each setting starts from a new pyramid. Raises
+    ModuleNotFoundError if pymunk is missing.
     """
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:

@@ -57,7 +57,7 @@ WAYS = (
 
 
 class Studied:
-    """A world that is stepped with one combination of solver parts instead of its own solver."""
+    """A world whose solver is replaced by a variant: one combination of solver parts (see Parts)."""
 
     def __init__(self, parts: Parts, world: World) -> None:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
@@ -113,7 +113,10 @@ def jobs(scope: ReportScope) -> list[Job]:
 
 
 def panels(pile: str) -> list[Panel]:
-    """Return the panels of a pile: one with all combinations, and one for each solver with lines of equal work."""
+    """Return the panels of a pile: one with all combinations of parts, and one for each solver.
+
+    In the panel of a solver, a line joins the settings of equal work (substeps times iterations).
+    """
     error = Axis("off or overlapping by at most [px]", value("error"), mark=VISIBLE)
     mine = f"{pile}: parts"
     return [
@@ -149,9 +152,10 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim `text`: that the error of the row `better` is at least a tenth below that of the row `worse`.
+    """Return a Claim that one setting is better than another. text: the claim as a sentence.
 
-    source: paper that makes the claim. Errors are the same in every run, so no interval is needed.
+    The claim holds if the error of the row `better` is at least a tenth below that of the row `worse`. Errors are the
+    same in every run, so no interval is needed. source: paper that makes the claim.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

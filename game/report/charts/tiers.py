@@ -45,7 +45,7 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Return two rows for each tier (kind of collision shape) of a sprite, one for each set of poses.
+    """Return the rows of a sprite: one for each tier (kind of collision shape) and each of the two sets of poses.
 
     The sprite is tested against a copy of itself. atlas: name of the sprite's atlas; name: name of the sprite in the
     atlas; tried: see poses_near().

@@ -274,10 +274,11 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """Draw the name of a setting beside its dot: that of the setting under the pointer, or of the current setting.
+        """Draw the name of one setting beside its dot.
 
-        rect: rectangle of the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; now: the
-        current setting; scale: frame px per text px.
+        It is the setting under the pointer or, if there is none, the current setting. rect: rectangle of the plot;
+        places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; now: the current setting; scale: frame px
+        per text px.
         """
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
@@ -361,7 +362,7 @@ class CostPanel:
 
 
 def kind_of(setting: Setting, base: Setting) -> str:
-    """Return the name of the first field in which `setting` differs from `base`, in the order of LOOKS."""
+    """Return the name of a field in which `setting` differs from `base`: the first one in the order of LOOKS."""
     differs = setting.differs(base)
     return next(name for name in LOOKS if name in differs)
 

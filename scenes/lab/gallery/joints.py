@@ -41,10 +41,9 @@ def along(distance, angle, x=0.0, y=0.0):
 
 
 def rod(side, start, end, thick):
-    """Add a box that reaches from `start` (x, y) to `end` (x, y) [px], and return its body, which collides with no
-    other body.
+    """Add a box that reaches from `start` (x, y) to `end` (x, y) [px], and return its body.
 
-    thick: thickness of the box [px]; side: one of the page's two worlds (page.Side).
+    The box collides with no other body. thick: its thickness [px]; side: one of the page's two worlds (page.Side).
     """
     (ax, ay), (bx, by) = start, end
     shape, middle = Polygon.box(dist(start, end), thick), ((ax + bx) / 2, (ay + by) / 2)

@@ -55,7 +55,10 @@ class Gears(Machine):
         self.phases = self._meshed()
 
     def _meshed(self):
-        """Return a list with the angle of one tooth of each gear in its body's space [rad], so that the teeth mesh."""
+        """Return the angles [rad] at which the teeth of the gears mesh, one for each gear.
+
+        An angle is that of one tooth in the space of the gear's body.
+        """
         phases = [0.0]
         for k in (1, 2):
             (ax, ay), (bx, by) = self.places[k - 1], self.places[k]

@@ -72,7 +72,10 @@ class Walker(Machine):
         self.tilt = 0.0
 
     def place(self, point):
-        """Return the world position (x, y) [px] of a point (x, y) of the body, given in units of UNIT px with y up."""
+        """Return the world position (x, y) [px] of a point of the body.
+
+        point: (x, y) in units of UNIT px, with y up.
+        """
         return self.origin[0] + UNIT * point[0], self.origin[1] - UNIT * point[1]
 
     def _leg(self, side, phase, paint):
