@@ -383,11 +383,11 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return `found` as a list in which each next kernel adds the most code that no earlier kernel contains.
+    """Return `found` in an order in which the workers compile different parts of the physics at the same time.
 
-    found: pairs (kernel, types of its arguments). In this order, the workers compile different parts of the physics at
-    the same time, and wait for each other 1 % of the time. In the order of code size they wait 14 % of the time (the
-    platformer, two cores).
+    found: pairs (kernel, types of its arguments). The next kernel is always the one that adds the most code to the code
+    of the kernels before it. In this order, the workers wait for each other 1 % of the time. In the order of code size
+    they wait 14 % of the time (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

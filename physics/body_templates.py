@@ -27,7 +27,7 @@ POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_")
 
 
 class Definition(TypedDict, total=False):
-    """The keyword arguments of World.add_bodies that describe a body, with the names of the fields of edit.BodyDef."""
+    """The keyword arguments of World.add_bodies that describe a body. They are also the fields of edit.BodyDef."""
 
     kind: KindName
     angular_velocity: float

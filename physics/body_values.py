@@ -12,9 +12,10 @@ from physics.world_state import WorldState
 
 
 def _own_rows(world, at, own) -> np.ndarray:
-    """Return the SHAPE row numbers of the shapes of a body that have no value of their own and use the body's value.
+    """Return the SHAPE row numbers of those shapes of a body that use the body's value.
 
-    at: row number of the body; own: SHAPE column that flags own values: "own_material", "own_filter" or "own_sensor".
+    They have no value of their own. at: row number of the body; own: SHAPE column that flags own values:
+    "own_material", "own_filter" or "own_sensor".
     """
     rows = world._shape_rows(at)
     return rows[~world.shapes[own][rows]]

@@ -56,11 +56,12 @@ def new_comparison(room: int) -> Comparison:
 
 @subkernel
 def look_at_pair(contacts, first, last, slop):
-    """Summarise the CONTACT rows first … last - 1, which belong to one pair of shapes.
+    """Summarise the contacts of one pair of shapes: the CONTACT rows first … last - 1. Return a tuple of eight values.
 
-    Return (whether the pair touches, whether it has a normal impulse, row of the deepest point, whether that is the
-    second point of its row, row of the fastest approaching point, whether that is the second point of its row, greatest
-    approach speed [px/s], sum of the normal impulses). slop [px]: greatest separation that counts as touching.
+    1: whether the pair touches. 2: whether it has a normal impulse. 3: row of the deepest point. 4: whether this is the
+    second point of its row. 5: row of the point with the greatest approach speed. 6: whether this is the second point
+    of its row. 7: this speed [px/s]. 8: sum of the normal impulses. slop [px]: greatest separation that counts as
+    touching.
     """
     active = False
     pushed = False

@@ -203,9 +203,9 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of the last step, together with those of some sleeping islands.
+    """Return the CONTACT rows of the last step, and those of sleeping islands.
 
-    keys: keys of sleeping islands. Islands that touch bodies of these islands are included too.
+    keys: keys of the sleeping islands. Islands that touch bodies of these islands are included too.
     """
     sleeping_set = world.sleeping_set
     keys = set(keys)

@@ -1,4 +1,4 @@
-"""Common implementation of the method find_pairs of all broad phases, which searches the pairs of given boxes."""
+"""The method find_pairs of all broad phases, which finds the overlapping pairs among given boxes."""
 
 import numpy as np
 from numpy.typing import ArrayLike

@@ -479,8 +479,10 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
 
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. If the point is nan,
     impact_point estimates it: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
-    response 1: the separation [px] is that of the final poses, from the motion after the impact. response 0: the
-    separation is 0. candidates (n, 2): pairs of row numbers in SHAPE; dt [s]: step length; manifolds_out: CONTACT rows.
+
+    response: 1 in a world with contact response. Then the separation [px] of a row is that of the final poses, computed
+    from the motion after the impact. 0: the separation is 0. candidates (n, 2): pairs of row numbers in SHAPE; dt [s]:
+    step length; manifolds_out: CONTACT rows.
     """
     found = 0
     for i in range(len(impacts)):

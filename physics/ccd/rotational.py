@@ -448,7 +448,7 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
-    """Return the first impact with a chain, as sweep_chain does, of a mover that is one piece of a larger moving shape.
+    """Return the first impact with a chain of a mover that is one piece of a larger moving shape. See sweep_chain.
 
     middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0. A link is hit only if this
     point is in front of the link. Other arguments: see sweep_chain.

@@ -343,8 +343,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
     """Return the velocity [px per motion] of a body's point (x, y) along the unit vector (nx, ny).
 
-    motion: motion of the body; x, y [px]: the point, relative to the start position of the centre of rotation in the
-    motion `seen_from`; fraction: fraction of the motion.
+    motion: motion of the body; fraction: fraction of this motion. x, y [px]: the point. The origin of its coordinates
+    is the centre of rotation of the motion `seen_from` at the start.
     """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])

@@ -184,9 +184,10 @@ def carried_by(way, stopped):
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move each character that stands on a moved character by the same number of pixels, from the bottom of a stack up.
+    """Move the characters that stand on characters which have been moved, by the same number of pixels.
 
-    along_x: 1 for the x axis, 0 for the y axis; walk_inout: see solids.Walk.
+    In a stack of characters, the lower ones are moved first. along_x: 1 for the x axis, 0 for the y axis; walk_inout:
+    see solids.Walk.
     """
     characters = walk_inout.characters
     for _ in range(len(characters)):

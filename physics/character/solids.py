@@ -235,7 +235,10 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the greatest overlap [px] with a link of a chain that a character can have if it comes from the front."""
+    """Return the greatest overlap [px] that a character can have with a chain link if it comes from the link's front.
+
+    A character with a deeper overlap comes from the back. walk: see Walk; body: BODY row of the chain.
+    """
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt

@@ -255,7 +255,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
 def support_manifold(reference, edge, incident, flipped, manifold_out):
     """Write a manifold of one point: the corner of the Hull `incident` that is deepest under an edge of `reference`.
 
-    Return 1, the number of points. Arguments as in clip_edges.
+    Return 1, the number of points. edge: index of this edge; flipped, manifold_out: as in clip_edges.
     """
     corners, _, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -590,7 +590,7 @@ def is_over(corners, count, edge, x, y):
 
 @subkernel
 def pushing_edges(a, b, over_ends):
-    """Return bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
+    """Return bits of the edges of Hull A whose normals may push A out of Hull B. B is a part of a larger outline.
 
     An edge may push if its inverted normal is valid at the corner of B that faces it, see is_normal_at_corner.
     over_ends: True to include also edges of A that are nearly parallel to a touchable edge of B and over one of its

@@ -515,9 +515,10 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of the speeds of two bodies and of the relative speed that center_velocity returns.
+    """Return a speed [px/s] that two bodies do not exceed, alone or relative to each other.
 
-    a, b: BODY rows.
+    It is an upper bound of the speeds of both bodies, and of the relative speed that center_velocity returns. a, b:
+    BODY rows.
     """
     distance = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
     turning = abs(a.angular_velocity) + abs(b.angular_velocity)

@@ -480,8 +480,8 @@ def collide_mask_line(raster, hull, depths_out):
 def square_distance(corners, count, x, y):
     """Return the distance [px] of a convex polygon from the unit square with top left corner (x, y); 0 if they overlap.
 
-    corners, count: corners [px] of the polygon and their number; the polygon may be a hull's core (without the
-    rounding).
+    corners, count: corners [px] of the polygon and their number. For a rounded hull, pass the corners without the
+    rounding.
     """
     if square_in_polygon(corners, count, x, y):
         return 0.0
@@ -510,7 +510,10 @@ def square_in_rounded(hull, x, y, depths_out):
 
 @subkernel
 def direction_to_core(corners, count, x, y):
-    """Return the unit direction from (x, y) to the nearest point of a polygon's outline; (0, -1) for a point on it."""
+    """Return the unit direction from (x, y) to the nearest point of a polygon's outline; (0, -1) for a point on it.
+
+    The polygon is the core of a rounded hull, which is the hull without its rounding.
+    """
     best = math.inf
     dx, dy = 0.0, 0.0
     for k in range(count):
@@ -553,10 +556,11 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 def collide_mask_rounded(raster, hull, depths_out):
     """Collide a PlacedRaster with a rounded Hull of two or more corners.
 
-    Return (area, nx, ny, x, y, separation, feature). Candidates for the normal are the inverted face normals, and the
-    direction from the centroid of the overlapping pixels to the hull's core. The candidate with the shortest move that
-    clears the pixels is used. The separation is minus the length of this move [px]. Other values as in
-    collide_mask_circle. O(pixels in the hull's AABB · corners). depths_out (16,): scratch.
+    Return (area, nx, ny, x, y, separation, feature). Candidates for the normal are the inverted face normals of the
+    Hull, and one more direction. It leads from the centroid of the overlapping pixels to the Hull's core (the Hull
+    without its rounding). The candidate with the shortest move that clears the pixels is used. The separation is minus
+    the length of this move [px]. Other values as in collide_mask_circle. O(pixels in the hull's AABB · corners).
+    depths_out (16,): scratch.
     """
     corners = hull.corners
     count = hull.count

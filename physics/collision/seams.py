@@ -297,9 +297,10 @@ def is_covered(batch, seam, first, others, workspace):
 
 @subkernel
 def list_ground(batch, lists_out):
-    """Write for each dynamic body the linked list of its candidate pairs with ground (bodies that are not dynamic).
+    """Write a linked list of candidate pairs for each dynamic body: its pairs with ground.
 
-    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: input of the pass, a manifold.Batch.
+    Ground means bodies that are not dynamic. lists_out: BodyLists of candidate indices. O(bodies + candidates). batch:
+    input of the pass, a manifold.Batch.
     """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE

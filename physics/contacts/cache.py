@@ -29,8 +29,8 @@ SAME = 2.0**-20  # distance below which a point counts as a corner, as a fractio
 def core_radius(shape):
     """Return the distance [px] from the core of a SHAPE row to its surface.
 
-    The core is the shape without its rounding. The distance is the radius of a circle, the rounding of a hull, and 0
-    for other shapes.
+    The core is the shape without its rounding: the centre of a circle, the unrounded outline of a hull. The distance is
+    the radius of a circle, the rounding of a hull, and 0 for other shapes.
     """
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
@@ -52,11 +52,11 @@ def has_corners(shape):
 
 @subkernel
 def frame_of(a, b, feature, radii):
-    """Return the frame with which the normal of a contact rotates: WITH_A, WITH_B, CORES or UPRIGHT.
+    """Return how the normal of a contact follows the rotation of the bodies: WITH_A, WITH_B, CORES or UPRIGHT.
 
-    WITH_A, WITH_B: it rotates with body A or B. CORES: it is the direction from A's core point to B's core point.
-    UPRIGHT: it never rotates. a, b: SHAPE rows; feature: feature id of the first point; radii [px]: sum of both core
-    radii.
+    WITH_A, WITH_B: the normal rotates with body A or B. UPRIGHT: it never rotates. CORES: it is the direction between
+    two points, one on A's core and one on B's core. A core is a shape without its rounding, see core_radius. a, b:
+    SHAPE rows; feature: feature id of the first contact point; radii [px]: sum of both core radii.
     """
     frame = WITH_B if a.kind == CIRCLE else WITH_A
     if a.kind != MASK and b.kind != MASK:
@@ -90,7 +90,7 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Displace a contact point along normal and tangent, and return the result in the space of a body, (x, y) [px].
+    """Displace a contact point, from the surface to the core of a shape. Return the result (x, y) [px] in body space.
 
     x, y [px]: the contact point in the world; nx, ny: normal; inside [px]: displacement along the normal; behind [px]:
     displacement along (ny, -nx), the opposite of the tangent; body: BODY row; turn: (cosine, sine) of its angle.
@@ -100,12 +100,13 @@ def core_in_body(body, turn, x, y, nx, ny, inside, behind):
 
 @subkernel
 def share_of(polygons, table, body_a, body_b, contact, a, b, second):
-    """Return which side a contact point moves with when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
+    """Return which body a contact point moves with if the bodies slide along the face: 0 for A, 1 for B, 0.5 for both.
 
-    A point at a corner or on a circle moves with the side that has the corner or circle. A point clipped by the end of
-    a face moves with the side that has the face. polygons, table: geometry.polygons and geometry.corners; body_a,
-    body_b: BODY rows; contact: CONTACT row with local points already written; a, b: SHAPE rows; second: True for the
-    second point.
+    A point at a corner or on a circle moves with the body that has the corner or circle. A point that is clipped by the
+    end of a face moves with the body that has the face.
+
+    polygons, table: geometry.polygons and geometry.corners; body_a, body_b: BODY rows; contact: CONTACT row with local
+    points already written; a, b: SHAPE rows; second: True for the second point.
     """
     part = (contact.feature_2 if second else contact.feature_1) % PART
     if a.kind == MASK or b.kind == MASK:
@@ -211,11 +212,14 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return the positions of a contact point on both cores in the world, as (ax, ay, dx, dy) [px].
+    """Return the world positions of two cached points of a contact as (ax, ay, dx, dy) [px].
 
-    ax, ay: the point on A's core; dx, dy: vector from this point to the point on B's core. a, b: BODY rows; turn_a,
-    turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the points in the space of their
-    bodies.
+    The cache stores each contact point twice: as a point on A's core, and as a point on B's core. A core is a shape
+    without its rounding, see core_radius. ax, ay: the point on A's core; dx, dy: vector from this point to the point on
+    B's core.
+
+    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; local_ax, local_ay [px]: the point on A's core in
+    the space of body A; local_bx, local_by [px]: the point on B's core in the space of body B.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -228,8 +232,9 @@ def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
 def clipped_gap(gap, core, other, apart, with_a, normal, wander):
     """Correct the gap between the cores at a clipped contact point. Return (gap [px], whether it was corrected).
 
-    A point clipped by the end of a face moves along the incident hull edge when the sides slide, which changes the gap.
-    The incident edge is the line through both core points of the side without the face.
+    A clipped point is one that the end of a face cuts out of the other body's edge. If the bodies slide, it moves along
+    this edge, which changes the gap. The edge is the line through the core points (see cores_at) of the body without
+    the face.
 
     gap [px]: gap before the correction. core [px]: vector from A's to B's core point at this contact point; other [px]:
     the same vector at the other contact point. apart [px]: vector from A's core point at this contact point to A's core
@@ -362,10 +367,10 @@ def is_finite(contact):
 def recycle_distance(contact, distance):
     """Return the greatest relative motion [px] at which a contact is kept without a new narrow phase (recycled).
 
-    The motion counts from the detection of the contact. The result is RECYCLE_MOVE times `distance` [px] for a loaded
-    contact with two points and without roundings, whose points are updated exactly. It is `distance` for all other
-    contacts, and for points that are close together (see RECYCLE_SHARE). Unloaded contacts are detected again earlier,
-    because the shortest direction out of an overlap may change.
+    The motion counts from the detection of the contact. For most contacts the result is `distance` [px]. It is
+    RECYCLE_MOVE times `distance` for a contact whose points are updated exactly: it is loaded, has two points that are
+    not close together (see RECYCLE_SHARE), and no rounding. Unloaded contacts are detected again earlier, because the
+    shortest direction out of an overlap may change.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0

@@ -225,9 +225,10 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
     """Keep contacts of the last step without a new narrow phase where possible, and classify the other pairs by kind.
 
-    Return (number of stale rows, number of pairs left to test plus number of pairs with a part of a larger shape).
-    Sensors are left out. If neither body has moved since the last step, a contact is kept if that step set
-    CONTACT.can_recycle. Otherwise the function can_recycle is called, with `distance` [px].
+    Return (number of stale rows, number of pairs). The second number is the sum of two counts: the pairs that are left
+    to test, and all pairs with a part of a larger shape. Sensors are left out. If neither body has moved since the last
+    step, a contact is kept if that step set CONTACT.can_recycle. Otherwise the function can_recycle is called, with
+    `distance` [px].
 
     batch: see manifold.Batch; previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
     kept rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts are kept.

@@ -25,11 +25,11 @@ class Islands(NamedTuple):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return the factor r [s/px] between the load of a contact and the square of the number of substeps that it needs.
+    """Return the factor r [s/px] from which the number of substeps of a contact follows: n² = r v.
 
-    With n² = r v, a contact sags by no more than state.accuracy [px] in n substeps. v [px/s] is the impulse of the
-    contact in the step divided by its effective mass m. A contact sags under a force F by F / (m ω²), where HERTZ_SHARE
-    gives ω as a fraction of the substeps per second.
+    v [px/s] is the load: the impulse of the contact in the step, divided by its effective mass m. In n substeps, the
+    contact sags by no more than state.accuracy [px]. The sag under a force F is F / (m ω²). HERTZ_SHARE gives ω as a
+    fraction of the substeps per second.
     """
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 

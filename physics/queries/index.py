@@ -282,12 +282,13 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes with which a query searched the broad phase, and the boxes with which the search compared them.
+    """The boxes that the last query visited in the broad phase.
 
     kind: the broad phase, "brute", "sweep", "hash" or "tree".
-    asked: (k, 4) searched boxes: min_x, min_y, max_x, max_y [px].
-    rects: (m, 4) compared boxes, in order and with repetitions: nodes of the tree, cells of the hash, or AABBs [px].
-    met: (m,) bool, whether each compared box overlaps the searched box.
+    asked: (k, 4) boxes for which the query searched: min_x, min_y, max_x, max_y [px].
+    rects: (m, 4) boxes with which these were compared, in order and with repetitions: nodes of the tree, cells of the
+        hash, or AABBs [px].
+    met: (m,) bool, whether each box in `rects` overlaps the searched box.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""List of all types of shapes, checks of arguments against it, and Bounds, the AABB of another shape as a shape."""
+"""List of all types of shapes, checks of arguments, and the shape Bounds, which is the AABB of another shape."""
 
 from __future__ import annotations
 

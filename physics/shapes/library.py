@@ -551,10 +551,11 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """Return, for each of k polygons, the index in `rows` (n,) of a SHAPE row with an equal polygon, or -1: (k,).
+    """Find a SHAPE row with an equal polygon for each of k polygons. Return indices in `rows` (k,), -1 for no such row.
 
-    Equal polygons have the same corners in the same order. geometry: tables of the library; corners (m, 2) [px]:
-    corners of all polygons, one polygon after another; counts (k,): number of corners of each polygon. O(k n).
+    Equal polygons have the same corners in the same order. geometry: tables of the library; rows (n,): the SHAPE rows
+    to search; corners (m, 2) [px]: corners of all polygons, one polygon after another; counts (k,): number of corners
+    of each polygon. O(k n).
     """
     found = np.empty(len(counts), np.int64)
     find_polygons(geometry, shapes, rows, corners, counts, found)

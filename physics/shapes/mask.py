@@ -466,9 +466,10 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return, for each column of a scaled mask, the index of the source column that contains its centre: (n,) int64.
+    """Return the index of the nearest source column for each column of a scaled mask: (n,) int64.
 
-    Also used for rows. size: number of columns of the source; factor: scale.
+    It is the column that contains the centre of the scaled column. Also used for rows. size: number of columns of the
+    source; factor: scale.
     """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

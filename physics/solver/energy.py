@@ -389,10 +389,11 @@ def draw_on_reserve(slop, balance_inout):
     Errors of the integrator alternate in sign, so bodies may regain energy that they lost before. In one step they may
     regain SHARE_BACK of their energy, or the energy of a lift by a slop. Sets with joints and without contacts may
     regain all of their reserve in one step, because light links under tension exchange much energy with the
-    integrator's error. With contacts, joints would return the energy that an impact took in the step before. Work of
-    surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
-    kinematic bodies keep all gains. A set with a joint whose anchors are far apart has no reserve: what it lost as the
-    anchors parted, or loses as they are drawn together, is no error of the integrator.
+    integrator's error. With contacts, joints would return the energy that an impact took in the step before.
+
+    Work of surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
+    kinematic bodies keep all gains. A set with a joint whose anchors are far apart has no reserve. The energy that it
+    loses while the anchors part or are drawn together is not an error of the integrator.
     """
     e = balance_inout
     if e.has_wide_gap:

@@ -1,4 +1,4 @@
-"""Direct tier of joints, which writes the parts of joints that trees can solve as rows for joint_trees.py.
+"""Direct tier of joints: the parts of joints that are solved exactly, as rows of the tree solver joint_trees.py.
 
 For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
 of the tree. Its coordinate is solved in the same way if it is held or has a spring. Joints that close a loop, further
@@ -281,12 +281,15 @@ def write_targets(joint, rate, bends, context, a, b, first, rows_inout):
 
 @subkernel
 def stretch_of(joint):
-    """Return (impulse that holds the anchors, lever [px] of A, lever [px] of B) of a joint, see add_inertia.
+    """Return (impulse, lever [px] of A, lever [px] of B): the tension in a joint, and the arms on which it acts.
 
-    The arms of a joint on an axis include its translation and may be long, while its force acts almost through a
-    centre of mass, or presses the bodies together. Only a force that pulls outwards turns a body back. The levers are
-    therefore the parts of the arms along this force. If the joint also locks the angle, both bodies rotate as one. Then
-    the vector between the centres of mass is the arm of both, and only the part of the impulse along it counts. joint:
+    The result is used by add_inertia. For most joints, the impulse is that which holds the anchors, and the levers are
+    the lengths of the moment arms.
+
+    For a joint on an axis, the arms include its translation and may be long. But its force acts almost through a centre
+    of mass, or presses the bodies together. Only a force that pulls outwards turns a body back, so the levers are the
+    parts of the arms along this force. If the joint also locks the angle, both bodies rotate as one. Then the lever of
+    both is the distance between the centres of mass, and only the part of the impulse along this line counts. joint:
     JOINT row.
     """
     j = joint
@@ -370,12 +373,14 @@ def aim_trees(rows, order, biased, context, joints, motions, tree_rows_out):
 
 @subkernel
 def translate_open_trees(rows, order, context, joints, schur_inout, motions_inout):
-    """Mark the trees with wide gaps, and give the bodies of those that are open an infinite inertia. O(order).
+    """Mark the trees with wide gaps. Give the bodies of the open trees among them an infinite inertia. O(order).
 
-    The gaps of an open tree close without rotation: the moment arms stay, and with them the velocities that its joints
-    permit. With rotation, the light links of a chain that is nearly straight would turn by large angles. rows, order:
-    see JointSet; context: see StepContext; joints: all JOINT rows. schur_inout: see Schur; motions_inout: MOTION rows,
-    whose inertias add_inertia restores.
+    A tree is open if it has no loop, and at most one joint to a body of infinite mass. Its gaps close without rotation:
+    the moment arms stay, and with them the velocities that its joints permit. With rotation, the light links of a chain
+    that is nearly straight would turn by large angles.
+
+    rows, order: see JointSet; context: see StepContext; joints: all JOINT rows. schur_inout: see Schur; motions_inout:
+    MOTION rows, whose inertias add_inertia restores.
     """
     s = schur_inout
     for k in range(len(order)):
@@ -394,10 +399,10 @@ def translate_open_trees(rows, order, context, joints, schur_inout, motions_inou
 
 @subkernel
 def aim_gaps(rows, order, counts, context, joints, motions, tree_rows_out):
-    """Write the target pseudo-velocities of the rows of all trees: wide gaps close, all else stays as it is. O(order).
+    """Write the target pseudo-velocities of the rows of all trees. O(order).
 
-    rows, order, counts: see JointSet; context: see StepContext; joints, motions: all JOINT and MOTION rows;
-    tree_rows_out: JOINT_ROW rows.
+    The targets of a joint with a wide gap close the gap. All other targets are 0. rows, order, counts: see JointSet;
+    context: see StepContext; joints, motions: all JOINT and MOTION rows; tree_rows_out: JOINT_ROW rows.
     """
     for k in range(len(order)):
         j = joints[rows[order[k]]]

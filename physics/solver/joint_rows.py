@@ -352,7 +352,7 @@ def aim_springs(rows, h, motions, joints_inout):
 
 @inlined
 def rigid_softness(biased, context):
-    """Return the softness of a part of a joint that has no spring of its own, in the format of softness_of.
+    """Return the softness of a joint's part that has no spring of its own. The result has the format of softness_of.
 
     biased: False in the relaxing pass, in which the part is fully rigid and errors of position are ignored; context:
     see StepContext, whose `joint` gives the softness in the pass with bias.

@@ -290,9 +290,10 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child contributes more to the pivot of `row` than to that of `other` (tuples of load_row).
+    """Return whether a joint's child responds relatively more to `row` than to `other`, two tuples of load_row.
 
-    Each contribution is divided by the pivot that its row has without other joints.
+    The child's contributions to the pivots of both rows are compared. Each is divided by the pivot that its row has
+    without other joints.
     """
     return row[9] * other[10] > other[9] * row[10]
 

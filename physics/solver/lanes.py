@@ -702,7 +702,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Complete the lane of a contact with one point: copy the first point to the second, with impulses of 0."""
+    """Copy the first point of a contact with one point to the second point of its lane, with impulses of 0."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]

@@ -76,7 +76,7 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """Arrays that accompany the MOTION rows of a world, with the row of each body and the kind of each row."""
+    """Arrays that accompany the MOTION rows of a world: the MOTION row of each body, and facts about each row."""
 
     motion_of: np.ndarray  # (bodies) int32 MOTION row of each body; 0: the body does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes the velocity of the body

@@ -29,7 +29,7 @@ ROUNDING = 1e-9  # share of an acceleration below which its component along a no
 
 
 class Press(NamedTuple):
-    """Constants of a world from which projection finds the accelerations that press two bodies together."""
+    """Constants of a world, for computing which accelerations press two bodies together."""
 
     dt: float  # [s]
     gravity_x: float  # [px/s2] before the gravity scale of a body

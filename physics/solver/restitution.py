@@ -463,7 +463,7 @@ def greatest_speed(impacts, last):
 
 @subkernel
 def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of a body from the substeps by the impulses of its simulated impacts, with friction.
+    """Replace a body's impulses from the substeps by those of its simulated impacts, with friction.
 
     last: see link_impacts; hit_speed [px/s]: greatest impact speed of the body. The impulses are not cached for the
     next step. impacts_inout: IMPACT rows; motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.

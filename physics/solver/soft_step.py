@@ -144,8 +144,8 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 def angular_impulses(lane, c):
     """Return the angular impulses (on_a, on_b) of a contact about the centres of A and B, without rolling resistance.
 
-    Both are moments of the impulse that acts on B: the angular impulse of A is -on_a, that of B is on_b. c, lane: the
-    contact's lane in a block.
+    Both are computed from the impulse that acts on B. So the angular velocity of B changes by on_b, and that of A by
+    -on_a (each times the inverse inertia). c, lane: the contact's lane in a block.
     """
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]

@@ -206,7 +206,7 @@ class StepState:
 
 
 class Stage(Protocol):
-    """Type of a function of a StepState that declares which fields of the state it reads and writes."""
+    """Type of a stage: a function of a StepState that declares which of the state's fields it reads and writes."""
 
     stage: str
     reads: tuple[str, ...]
