@@ -274,7 +274,7 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
 
 
 def _add_many_of_bodies(world, kind, first, second, settings) -> np.ndarray:
-    """Add a joint of one kind for each of n pairs of bodies, and return the ids (n,) of the joints.
+    """Add a joint for each of n pairs of bodies, and return the ids (n,) of the joints. All joints are of one kind.
 
     first, second: lists with bodies A and B of the pairs, as Bodies, ids or None (the world); None instead of a list
     means the world in all pairs. settings: keyword arguments of World.add_joints. Raises the errors of add_many.

@@ -98,13 +98,15 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
     """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
     Return False if a contact belongs to a part of a shape, otherwise True. The comparison stops at such a contact; the
-    caller must replace the ids of parts by those of whole shapes and call again. before: EVENT rows of the pairs that
-    touched in the last step; contacts: CONTACT rows of this step; both sorted by shape ids. fell_asleep: CONTACT rows
-    of pairs whose island fell asleep. Such pairs still touch; they are not reported, but written to
-    comparison_inout.aside. sensors: 1: read only contacts of sensors, 0: read only other contacts. persisting: 1:
-    report pairs that continue to touch. slop [px]: greatest separation at which a pair that touched before still
-    touches. hit_speed [px/s]: approach speed above which a hit is reported. comparison_inout: a Comparison. O(before +
-    contacts).
+    caller must replace the ids of parts by those of whole shapes and call again. O(before + contacts).
+
+    before: EVENT rows of the pairs that touched in the last step; contacts: CONTACT rows of this step; both sorted by
+    shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep. Such pairs still touch; they are not
+    reported, but written to comparison_inout.aside. comparison_inout: a Comparison.
+
+    sensors: 1: read only contacts of sensors, 0: read only other contacts. persisting: 1: report pairs that continue to
+    touch. slop [px]: greatest separation at which a pair that touched before still touches. hit_speed [px/s]: approach
+    speed above which a hit is reported.
     """
     counts = comparison_inout.counts
     now = comparison_inout.now

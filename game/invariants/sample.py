@@ -98,7 +98,10 @@ def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
 
 
 def extent_of(shape: Shape) -> int:
-    """Return the number of pixels of a mask or of tiles of a tile grid, including empty ones; 1 for other shapes."""
+    """Return the number of pixels of a mask, or the number of tiles of a tile grid; 1 for other shapes.
+
+    Empty pixels and tiles are included.
+    """
     if isinstance(shape, PixelMask):
         return shape.size[0] * shape.size[1]
     return shape.solid.size if isinstance(shape, TileGrid) else 1

@@ -1,11 +1,14 @@
 """The errors of a setting, measured in runs from a snapshot ("moment"), against reference runs and exact tests.
 
-There are four kinds of error. `way` [px]: root mean square distance of the bodies from their positions in a reference
-run. `overlap` [px]: how deep rigid bodies overlap, which is 0 in an exact solution. `joints` [px]: the widest gap
-between the anchors of a joint, also 0 in an exact solution. It is measured in the second half of the run, because gaps
-at the start come from the setting under which the scene ran before. `verdict`: wrong answers (false hits and missed
-hits) per 100 encounters. An encounter is a pair of bodies that the setting or the exact test reports as touching (see
-exact_tier). A pair counts once, no matter how long it touches, so that encounters are independent.
+There are four kinds of error:
+  `way` [px]: root mean square distance of the bodies from their positions in a reference run.
+  `overlap` [px]: how deep rigid bodies overlap, which is 0 in an exact solution.
+  `joints` [px]: the widest gap between the anchors of a joint, which is 0 in an exact solution. It is measured in the
+  second half of the run, because gaps at the start come from the setting under which the scene ran before.
+  `verdict`: wrong answers (false hits and missed hits) per 100 encounters.
+
+An encounter is a pair of bodies that the setting or the exact test reports as touching (see exact_tier). A pair counts
+once, no matter how long it touches, so that encounters are independent.
 
 The reference run of `way` has 64 times the 4 substeps of a plain run. Its contacts have the stiffness of runs with a
 fixed number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this

@@ -1,7 +1,7 @@
 """`python -m game.measure.first_step`: measure the time of building a world and making its first step in a new process.
 
-Standard input is one line of JSON: [file of a snapshot, name of the broad phase, names of the effects, names of the
-idle effects (see Side)]. Standard output is the time in seconds.
+Standard input is one line of JSON, a list: file of a snapshot, name of the broad phase, names of the effects, names of
+the idle effects (see Side). Standard output is the time in seconds.
 """
 
 import json

@@ -31,7 +31,10 @@ MOST_POINTS = 10**15
 
 
 class Recorder:
-    """Recorder of the input of each step, and of a digest of the state after every `every` frames."""
+    """Recorder of a run. It stores the input of each step.
+
+    After every `every` frames it also stores a digest of the scene's state.
+    """
 
     def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
         level = scene.level_file

@@ -61,9 +61,9 @@ def corner(image: pygame.Surface, x: float, y: float) -> tuple[int, int]:
 
 @lru_cache
 def outlined(sprite: str) -> pygame.Surface:
-    """Return a picture of the outline of a sprite's pixels, with the size of the sprite.
+    """Return a picture of the outline of a sprite's pixels. It has the size of the sprite.
 
-    Drawing it takes 2 us instead of 84.
+    Drawing this picture takes 2 us, drawing the outline itself 84 us.
     """
     image = load_atlas("planes")[sprite]
     found = pygame.Surface(image.get_size(), pygame.SRCALPHA)

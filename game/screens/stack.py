@@ -158,8 +158,8 @@ class Screens:
     def open_file(self, path: str | Path) -> None:
         """Open a file that was dropped on the window. Raises UsageError for an unusable file.
 
-        A PNG picture starts the scene that loads pictures as levels. Any other file is played as a recording. After an
-        error, the current game continues.
+        A PNG picture is opened in the scene that can load pictures as levels. Any other file is played as a recording.
+        After an error, the current game continues.
         """
         classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
         taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)

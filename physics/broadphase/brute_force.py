@@ -56,9 +56,9 @@ def near_in_all(proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_all(box, structure, slots_out, work_inout):
-    """Call near_in_all with the data of BruteForce.structure, and return the number of proxies found.
+    """Search the proxies whose boxes overlap a box, see near_in_all. Return the number of proxies found.
 
-    structure: (PROXY table,); other arguments: see near_in_all.
+    structure: result of BruteForce.structure, (PROXY table,); other arguments: see near_in_all.
     """
     return near_in_all(structure[0], box, slots_out, work_inout)
 

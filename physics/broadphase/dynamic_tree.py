@@ -1,11 +1,14 @@
 """Broad phase of two dynamic bounding volume hierarchies with AVL balance: one for static proxies, one for moving ones.
 
 A leaf contains the box of a proxy enlarged by a margin (fat box). While a proxy moves within its fat box, an update
-takes one comparison. Insertion descends by the surface area heuristic to a leaf or to the parent of a leaf. Single
-rotations then restore the AVL balance from there up to the root. Children have no order, so a single rotation always
-suffices, and the height is at most 1.45·log2(n) + 2. If most proxies of a tree change in one step, the tree is rebuilt
-by median splits. O(moved · log n). Suitable for many static and few moving bodies. Source: Catto, Dynamic Bounding
-Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
+takes one comparison.
+
+Insertion descends by the surface area heuristic to a leaf or to the parent of a leaf. Single rotations then restore the
+AVL balance from there up to the root. Children have no order, so a single rotation always suffices, and the height is
+at most 1.45·log2(n) + 2. If most proxies of a tree change in one step, the tree is rebuilt by median splits.
+
+O(moved · log n). Suitable for many static and few moving bodies. Source: Catto, Dynamic Bounding Volume Hierarchies,
+GDC 2019; Adelson-Velsky and Landis 1962.
 """
 
 import numpy as np
@@ -471,9 +474,9 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 @subkernel
 def search_trees(box, structure_inout, slots_out, work_inout):
-    """Call query_trees with the data of DynamicTree.structure, and return the number of proxies found.
+    """Search the proxies whose fat boxes overlap a box, see query_trees. Return the number of proxies found.
 
-    structure_inout: (nodes, roots, stack); other arguments: see query_trees.
+    structure_inout: result of DynamicTree.structure, (nodes, roots, stack); other arguments: see query_trees.
     """
     nodes, roots, stack_inout = structure_inout
     return query_trees(nodes, roots, box, stack_inout, slots_out, work_inout)
@@ -487,11 +490,14 @@ def search_trees(box, structure_inout, slots_out, work_inout):
 def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, state_inout, work_inout):
     """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
-    A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
-    (margin of a fat box [px], margin as a share of the box's size); the smaller one is used. loose: (flag of the moving
-    tree, flag of the static tree); 1 if the caller rebuilds this tree next, so its leaves are not linked here.
-    leaf_of_inout: (slots,) index of each proxy's leaf, or -1. state_inout: (first free node, number of used nodes, root
-    of the moving tree, root of the static tree). nodes_inout: NODE rows; work_inout: counters, see COUNTERS.
+    A leaf is not moved while its proxy is within the leaf's fat box. The margin of a fat box is the smaller of two
+    lengths.
+
+    changed: slots of the changed proxies. margins: (margin [px], margin as a share of the box's size). loose: (flag of
+    the moving tree, flag of the static tree); 1 if the caller rebuilds this tree next, so that its leaves need not be
+    linked here. leaf_of_inout: (slots,) index of each proxy's leaf, or -1. state_inout: (first free node, number of
+    used nodes, root of the moving tree, root of the static tree). nodes_inout: NODE rows; work_inout: counters, see
+    COUNTERS.
     """
     moved = 0
     for i in range(len(changed)):

@@ -270,9 +270,11 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
     On each level, a box is tested against the proxies in the cells that the box touches. If these cells are too many,
     the box is tested against all proxies of the level instead. Therefore the number of cells read is at most
     proportional to the perimeter of the box. A pair that shares several cells is reported only in the cell that
-    contains the lower corner of the overlap. proxies: PROXY table; changed: slots of the changed proxies; base: cell
-    size on level 0 [px]; cells: Cells; chains_out, near_out: scratch, see follow; pairs_out: (capacity, 2) int32, the
-    slots of each pair; work_inout: counters, see COUNTERS.
+    contains the lower corner of the overlap.
+
+    proxies: PROXY table; changed: slots of the changed proxies; base: cell size on level 0 [px]; cells: Cells;
+    chains_out, near_out: scratch, see follow; pairs_out: (capacity, 2) int32, the slots of each pair; work_inout:
+    counters, see COUNTERS.
     """
     heads = cells.heads
     entries = cells.entries
@@ -404,9 +406,9 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_cells(box, structure, slots_out, work_inout):
-    """Call near_in_cells with the data of SpatialHashGrid.structure, and return the number of proxies found.
+    """Search the proxies whose boxes overlap a box, see near_in_cells. Return the number of proxies found.
 
-    structure: (base, cells, PROXY table); other arguments: see near_in_cells.
+    structure: result of SpatialHashGrid.structure, (base, cells, PROXY table); other arguments: see near_in_cells.
     """
     base, cells, proxies = structure
     return near_in_cells(base, cells, proxies, box, slots_out, work_inout)

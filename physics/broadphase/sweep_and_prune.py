@@ -215,9 +215,9 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 @subkernel
 def search_order(box, structure, slots_out, work_inout):
-    """Call near_in_order with the data of Axis.structure, and return the number of proxies found.
+    """Search the proxies whose boxes overlap a box, see near_in_order. Return the number of proxies found.
 
-    structure: (order, boxes, highest, axis); other arguments: see near_in_order.
+    structure: result of Axis.structure, (order, boxes, highest, axis); other arguments: see near_in_order.
     """
     order, boxes, highest, axis = structure
     return near_in_order(order, boxes, highest, axis, box, slots_out, work_inout)

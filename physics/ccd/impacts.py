@@ -170,11 +170,12 @@ def write_impact(pair, impact, from_a, stops, found, impacts_out):
 def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
     """Find the impacts of fast bodies within dt [s] by sweeps in closed form. Return their number. O(candidates).
 
+    A body is not stopped if its motion into the obstacle within dt is at most a quarter of its smallest half extent.
+    The contact solver then resolves the overlap. So a body that slides on the ground is not stopped.
+
     impacts_out (n, 8) float64, columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0
-    if the body stops, -1; the last two are not written. The body does not stop if its motion into the obstacle within
-    dt is at most a quarter of its smallest half extent. The contact solver then resolves the overlap, and a body that
-    slides on the ground is not stopped. only_straight: True to leave out bodies in mode "auto", which are swept with
-    rotation. scratch: a Workspace. sweep_inout: see Sweep.
+    if the body stops, -1. The last two columns are not written. only_straight: True to leave out bodies in mode "auto",
+    which are swept with rotation. scratch: a Workspace. sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     found = 0
@@ -344,11 +345,12 @@ def is_first_mover(a, b, bodies, fast):
 def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     """Find the impacts of fast bodies along their paths, with rotation. Return their number. O(candidates).
 
+    Without a stacking solver, a body is not stopped if its motion into the obstacle is at most a quarter of its
+    smallest half extent. The contact then resolves the overlap in the same step.
+
     impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0 if the
-    body stops, feature. moving: see is_swept. Without a stacking solver, a small motion into the obstacle does not stop
-    a body, because the contact resolves the overlap in the same step. A motion is small if it is at most a quarter of
-    the smallest half extent. rotation: whether bodies rotate; if False, pairs with a closed form are left to
-    find_impacts. sweep_inout: see Sweep.
+    body stops, feature. moving: see is_swept. rotation: whether bodies rotate; if False, pairs with a closed form are
+    left to find_impacts. sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack

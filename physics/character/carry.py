@@ -372,9 +372,9 @@ def move_out(me, row, walk_inout):
 def give_way(walk_inout):
     """Move characters out of loose shapes (see solids.is_loose) that moved into them, or mark them as squeezed.
 
-    An overlap squeezes a character only if it was deeper than GIVE and is at least as deep one step later, because a
-    body that has just fallen onto a character overlaps it until the solver has separated the two. O(characters · nearby
-    solids). walk_inout: see solids.Walk.
+    A character is squeezed if the overlap was deeper than GIVE and is at least as deep one step later. The second
+    condition excludes bodies that have just fallen onto a character: they overlap it until the solver has separated the
+    two. O(characters · nearby solids). walk_inout: see solids.Walk.
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]

@@ -504,7 +504,7 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies on which they stand. O(characters · log shapes).
 
     Also store the point under the feet of each character [px]. The velocity of the character's body is set to that of
-    the ground at this point, unless the ground is slower than `slow` [px/s], because the velocity would keep it awake.
+    the ground at this point. It is set to 0 on ground slower than `slow` [px/s], which the velocity would keep awake.
     shapes: SHAPE table; gravity_x, gravity_y [px/s²]; characters_inout: CHARACTER table; bodies_inout: BODY table.
     """
     for me in range(len(characters_inout)):

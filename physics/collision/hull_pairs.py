@@ -495,11 +495,12 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 
 @subkernel
 def overlaps_narrowly(a, b, most, far, manifold):
-    """Return whether two Hulls have a narrow contact face: their extents overlap by at most `most` [px] along it.
+    """Return whether two Hulls have a narrow contact face, which is at most `most` [px] wide.
 
-    far: whether the Hulls move far relative to each other in this step. If so, the face is also narrow if its two
-    contact points are at most `most` apart. This second condition is not used for slow Hulls. A contact with close
-    points may support a body, as on the edge of a card. manifold (11,): format in hulls.clip_edges.
+    The width is that of the overlap of their extents along the face. If `far` is True, the Hulls move far relative to
+    each other in this step. Then the face is also narrow if its two contact points are at most `most` apart. This is
+    not enough for slow Hulls, because two points close together may support a body, as on the edge of a card. manifold
+    (11,): format in hulls.clip_edges.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True

@@ -179,10 +179,11 @@ def distance_to_hull(hull, x, y):
 
 @subkernel
 def is_behind_plane(batch, seam, support, workspace):
-    """Return whether the ground of contact `seam` is nowhere in front of the contact plane of contact `support`.
+    """Return whether a piece of ground is behind the contact plane of another piece, at least near the body.
 
-    Only ground near the body is tested. This ground may be in front of the plane by the tolerance batch.graze [px].
-    seam, support: CONTACT rows of one dynamic body with two pieces of ground; workspace: scratch memory.
+    A contact with such a piece may be a ghost collision. A tolerance of batch.graze [px] is allowed. seam: CONTACT row
+    of the body with the first piece; support: CONTACT row of the body with the other piece, whose plane is used;
+    workspace: scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)

@@ -123,10 +123,12 @@ def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
     """Merge contacts kept from the last step and newly detected ones into contacts_out. Return their number.
 
-    previous: CONTACT rows of the last step. stale: int32 rows of `previous` that are not recycled (kept without a new
-    narrow phase), ascending; all other rows of `previous` are kept. found: CONTACT rows of this step. A row of `found`
-    whose field `previous` is -1 is new, and takes the forces of old points with the same feature id. Any other row is
-    recycled and keeps its cache. All three tables are in the order of the candidate pairs. O(previous + found).
+    previous: CONTACT rows of the last step. stale: ascending int32 rows of `previous` that are not copied, because
+    their pairs were detected again. All other rows of `previous` are kept.
+
+    found: CONTACT rows of this step. A row whose field `previous` is -1 is new, and takes the forces of old points with
+    the same feature id. Any other row is recycled and keeps its cache. All three tables are in the order of the
+    candidate pairs. O(previous + found).
     """
     count = 0
     kept = 0

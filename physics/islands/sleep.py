@@ -544,11 +544,14 @@ def advance_sleep_times(
     """Advance the sleep times and rocking times of awake bodies by dt [s]. O(rows + count).
 
     Return (number of islands of awake dynamic bodies, whether any body has a sleep time of at least `patience` [s]).
+
     The sleep time restarts at 0 when a body is further than `slow` [px/s] times `patience` from its reference pose for
     sleep. The rocking time restarts when the body is further than rocking_range [px] from its reference pose for
-    rocking, see settings.ROCKING_RANGE. rows: rows of the awake bodies; edges, count, parents_inout: see graph.join.
-    least_out, excess_out (bodies,): at the root of each island, the least sleep time [s] of its bodies, and the sum of
-    speed² - slow² [px²/s²] over its bodies. bodies_inout: BODY table.
+    rocking, see settings.ROCKING_RANGE.
+
+    rows: rows of the awake bodies; edges, count, parents_inout: see graph.join. The results of an island are written at
+    its root row: least_out (bodies,): the least sleep time [s] of its bodies; excess_out (bodies,): the sum of speed² -
+    slow² [px²/s²] over its bodies. bodies_inout: BODY table.
     """
     distance = slow * patience
     islands = 0

@@ -1,4 +1,4 @@
-"""Choice of the number of substeps of each island, from the loads of the last step, impacts and new bodies."""
+"""Choice of the number of substeps of each island: from its loads in the last step, its impacts and its new bodies."""
 
 import math
 from typing import NamedTuple

@@ -312,8 +312,8 @@ class Library:
         """Add the data of a mask for tests at exact poses: its convex hull, and its halo if snap is False.
 
         The hull gives a tight AABB. The halo consists of the solid pixels and their neighbours, see raster/exact.py.
-        Return the values that the RASTER row at angle 0 holds: (first word of the halo or -1, words per row, first
-        corner of the hull, number of corners).
+        Return (first word of the halo or -1, words per row, first corner of the hull, number of corners). These values
+        are stored in the RASTER row at angle 0.
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)

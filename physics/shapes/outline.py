@@ -268,10 +268,10 @@ def _bits(sides, turns):
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     """Return the turn [rad] of the outline at each corner of each part: one array (corners,) for each part.
 
-    A side shared by two parts is inner; all other sides are on the outline. At a corner between two sides on the
-    outline the result is pi, between two inner sides COVERED. At any other corner, the interior angles of all parts
-    with this corner (equal coordinates) are summed. The first of these parts gets pi minus the sum, or COVERED if the
-    outline is not convex there. The other parts get COVERED.
+    A side shared by two parts is inner; all other sides are on the outline. There are three cases. At a corner between
+    two sides on the outline, the result is pi. At a corner between two inner sides, it is COVERED. At any other corner,
+    the interior angles of all parts with this corner (equal coordinates) are summed. The first of these parts gets pi
+    minus the sum, or COVERED if the outline is not convex there. The other parts get COVERED.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:

@@ -307,8 +307,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    The AABB of a mask is that of its solid pixels; for an empty mask it is the point (x, y). The pixels are on whole
-    coordinates if the mask has snap=True and its role is not PIXELS, otherwise at the exact pose. row: row number in
+    The AABB of a mask is that of its solid pixels; for an empty mask it is the point (x, y). A mask with snap=True is
+    placed on whole pixels unless its role is PIXELS. Any other mask is placed at the exact pose. row: row number in
     SHAPE; x, y, angle [px, px, rad]: the pose.
     """
     s = shapes[row]
@@ -406,7 +406,7 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Write the raster, left, top and AABB of a mask with snap=True at its body's pose to the mask's SHAPE row.
+    """Write four values to the SHAPE row of a mask with snap=True: raster, left, top and AABB at its body's pose.
 
     left, top: pixel column and row of the raster's top left corner. rasters, raster_of: tables of the geometry, passed
     separately because passing the whole Geometry takes longer. body: BODY row; shape_inout: SHAPE row.

@@ -78,7 +78,10 @@ class Convex(EqualByValue):
         return parts_of([corners[:count]], radius)
 
     def _facts(self) -> dict[str, Any]:
-        """Return {name: value} of the constructor's arguments except `points`, for a snapshot, as JSON can store it."""
+        """Return the constructor's arguments except `points` as {name: value}, for a snapshot.
+
+        JSON can represent all values.
+        """
         return {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name != "points"}
 
     @classmethod

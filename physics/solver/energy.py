@@ -317,9 +317,10 @@ def add_momentum(motion, balance, root_inout):
 
 @subkernel
 def energy_in_common(balance_inout):
-    """Replace the sums of add_momentum by the set's motion as one rigid body. Return the energy of this motion.
+    """Compute the motion of a set of touching bodies as one rigid body, and return the energy of this motion.
 
-    balance_inout: BALANCE row of the set's root.
+    balance_inout: BALANCE row of the set's root. It holds the sums of add_momentum before the call, and the common
+    motion afterwards: velocity, centre of mass, angular velocity (`spin`) and moment of inertia.
     """
     e = balance_inout
     if e.mass == 0.0:

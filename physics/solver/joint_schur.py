@@ -2,10 +2,12 @@
 
 A row is one scalar equation of a joint. joint_trees.py solves only the rows of the tree itself. Three kinds of rows are
 not part of the tree: rows of a joint that closes a loop (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter
-8), the limits on the coordinate of a joint, and its motor. The Schur complement S of the tree describes how these Schur
-rows respond to impulses, with the tree attached: column i holds the velocity changes of all rows by a unit impulse
-along row i. A column costs one solve of the tree, and is computed when its row first needs an impulse. The equations in
-S are then solved by factors L D Lᵀ, in O(k³) for k rows with an impulse.
+8), the limits on the coordinate of a joint, and its motor. They are called Schur rows.
+
+The Schur complement S of the tree describes how these rows respond to impulses, with the tree attached: column i holds
+the velocity changes of all rows by a unit impulse along row i. A column costs one solve of the tree, and is computed
+when its row first needs an impulse. The equations in S are then solved by factors L D Lᵀ, in O(k³) for k rows with an
+impulse.
 
 Impulses of limits and motors are bounded. Block principal pivoting finds which of these impulses are at a bound (Júdice
 and Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems,
@@ -115,7 +117,11 @@ class Schur(NamedTuple):
 
 
 def new_schur(rows: int, slots: int, motions: int, entries: int) -> Schur:
-    """Return an empty Schur with capacities for rows, slots of the forest, MOTION rows and entries of the matrix."""
+    """Return an empty Schur with the given capacities.
+
+    rows: number of Schur rows; slots: number of slots of the forest; motions: number of MOTION rows; entries: number of
+    entries of the matrices.
+    """
     return Schur(
         rows=zeros_in_lines(rows, SCHUR_ROW),
         trees=zeros_in_lines(slots, SCHUR_TREE),

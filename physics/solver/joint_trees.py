@@ -333,9 +333,10 @@ def independent(row, lead, inertia, common, is_second):
 def apply_row(row, inertia):
     """Update the articulated inverse inertia of the parent by one row of a joint (Bierman's update).
 
-    Return (new factors D and U of the parent, gain of the parent, inverse pivot, inverse of the child's part of the
-    pivot, 1 if the row is redundant, else 0). A redundant row gets its scale (the pivot without other joints) as
-    compliance. row: tuple of load_row; inertia: factors (D, U) of the parent's inverse inertia.
+    Return a tuple of six values. 1, 2: new factors D and U of the parent. 3: gain of the parent. 4: inverse pivot. 5:
+    inverse of the child's part of the pivot. 6: 1 if the row is redundant, else 0. A redundant row gets its scale (the
+    pivot without other joints) as compliance. row: tuple of load_row; inertia: factors (D, U) of the parent's inverse
+    inertia.
     """
     d_x, d_y, d_w, u_xy, u_xw, u_yw = inertia
     x, y, w = row[0], row[0] * u_xy + row[1], row[0] * u_xw + row[1] * u_yw + row[2]
@@ -659,9 +660,9 @@ def solve_pseudo_velocities(push_speed, forest_inout, joint_rows_inout, motions_
 def move_by_pseudo_velocities(h, most_turn, forest_inout, motions_inout):
     """Move the bodies of all trees by their pseudo-velocities over a substep of h [s], and reset these. O(bodies).
 
-    If a body of a tree would rotate by more than `most_turn` [rad], the pseudo-velocities of all bodies of the tree are
-    scaled by one factor, so that its joints are kept. forest_inout: Forest, whose impulses are scratch; motions_inout:
-    MOTION rows.
+    No body may rotate by more than `most_turn` [rad]. If one would, the pseudo-velocities of all bodies of its tree are
+    scaled by one factor, so that the joints of the tree are kept. forest_inout: Forest, whose impulses are scratch;
+    motions_inout: MOTION rows.
     """
     f = forest_inout
     for slot in range(f.sizes[0]):

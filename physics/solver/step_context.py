@@ -43,7 +43,7 @@ class Softness(NamedTuple):
 
 
 class StepContext(NamedTuple):
-    """The constants of all substeps of a group of islands with the same number of substeps."""
+    """The constants of all substeps of a group, which is a set of islands with the same number of substeps."""
 
     substeps: int
     dt: float  # [s] length of the step …

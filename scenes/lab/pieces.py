@@ -28,7 +28,7 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """Return a RotatedPicture, which draws a shape at any angle about the shape's origin. Results are cached.
+    """Return a RotatedPicture of a shape, which can be drawn at any angle about the shape's origin. Results are cached.
 
     ramp: name of the picture's colours in RAMPS.
     """

@@ -61,9 +61,10 @@ class Blows:
 
 
 def push(dx, dy):
-    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from this centre.
+    """Return the Blow of a bomb on a plane. It points away from the bomb's centre.
 
-    The blow has the strength of a plain shot at a light plane.
+    dx, dy: position of the plane relative to this centre [px]. The blow has the strength of a plain shot at a light
+    plane.
     """
     far = max(hypot(dx, dy), 1.0)
     return Blow(Blow.USUAL * dx / far, Blow.USUAL * dy / far, Blow.USUAL / 90.0)

@@ -57,7 +57,10 @@ def measure(seeds: int) -> list[Row]:
 
 
 def _way(world):
-    """Return the centres of mass of all bodies after each of STEPS steps, a list of (bodies, 2) arrays [px]."""
+    """Step a world STEPS times, and return the motion of its bodies: a list of (bodies, 2) arrays [px].
+
+    An array contains the centres of mass after one step.
+    """
     found = []
     for _ in range(STEPS):
         world.step()

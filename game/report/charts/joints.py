@@ -166,7 +166,7 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def times_wider(wide: Row, narrow: Row) -> tuple[float, float, float]:
-    """Return (least, median, greatest) of the ratio of the errors of two rows, wide / narrow.
+    """Return (least, median, greatest) of the ratios of two rows' errors, wide / narrow.
 
     There is one ratio for each case of the scene.
     """

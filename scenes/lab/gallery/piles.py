@@ -56,7 +56,7 @@ def build_heavy(side):
 
 
 def build_huge(side):
-    """Build a crate of 16 m on two crates of half a metre, and a crate of half a metre on top of the large one.
+    """Build a large crate of 16 m, which stands on two crates of half a metre and carries a third one.
 
     side: one of the page's two worlds (page.Side).
     """
