@@ -393,9 +393,8 @@ class Scene:
     def own_hits(self) -> dict[str, int]:
         """{part of the player's body: number of hits of this part in this run}; {} if the scene does not count hits.
 
-        "box" is the bounding box, and "hull" the collision shape of the sprite. "core" is the small part of a plane
-        that can be hurt, if the scene has one. The scene's picture, the plot of costs and the CSV file show these
-        numbers.
+        "box" is the bounding box, and "hull" the collision shape of the sprite. "core" is a small disc in the middle of
+        the sprite, if the scene has one. The scene's picture, the plot of costs and the CSV file show these numbers.
         """
         return {}
 

@@ -136,8 +136,8 @@ class Surveyor:
     ) -> None:
         """Order measurements of the costs of effects. The results are stored in `totals` and `effects`.
 
-        For each choice of effects (see effect_totals), and for each single effect, the time of a step is measured, and
-        the compiled kernels are counted. each: False measures only the choices.
+        The time of a step is measured, and the compiled kernels are counted, for each choice of effects (see
+        effect_totals) and for each single effect. each: False omits the times of single effects.
 
         snapshot: state from which the steps are timed; broadphase: name of the broad phase of its world; pieces: shape
         pairs and queries that the scene uses, as in physics.warmup, None for all.

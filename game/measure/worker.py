@@ -151,9 +151,9 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
     """Measure the costs of a scene's effects: time of a step, number of kernels, and time of the first step.
 
-    The costs are measured for each choice of effects: as declared, all effects, and the fewest possible. If
-    order["each"] is True, the time and the kernels of each single effect are measured, too. All runs start from the
-    snapshot whose file is order["snapshot"].
+    The costs are measured for each choice of effects: as declared, all effects, and the fewest possible. The kernels of
+    each single effect are counted, too. If order["each"] is True, the time of each single effect is also measured. All
+    runs start from the snapshot whose file is order["snapshot"].
 
     report(line of JSON) is called for each result. When goes_on() is False, nothing more is timed.
     """

@@ -1,4 +1,7 @@
-"""Invariants of the simulation, shown by eleven indicators, U1 to U11. Green: holds; red: broken; grey: not checked."""
+"""Invariants of the simulation, shown by eleven indicators, U1 to U11.
+
+An indicator is green if its invariant holds, red if it is broken, and grey if it is not checked.
+"""
 
 from collections.abc import Iterator
 

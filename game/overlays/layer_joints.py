@@ -1,4 +1,4 @@
-"""Joints of a world: their anchors, axes, limits with the present values, and forces."""
+"""Joints of a world: their anchors, axes, forces, and limits with the present values."""
 
 from math import atan2, ceil, cos, hypot, inf, pi, sin
 
@@ -30,10 +30,11 @@ COLUMNS = (
 
 
 class Joints(Layer):
-    """For each joint: its anchors with a line between them, its axis, its limits with the present value, and its force.
+    """Overlay that shows the anchors of each joint with a line between them, its axis, its limits, and its force.
 
-    Joints that the direct solver solves (trees) are green, those that are solved iteratively are blue, and sleeping or
-    disabled ones are grey. An arrow shows the force on body B. A bar shows the force as a share of the breaking force.
+    The present value of the joint is marked between its limits. Joints that the direct solver solves (trees) are green,
+    those that are solved iteratively are blue, and sleeping or disabled ones are grey. An arrow shows the force on body
+    B. A bar shows the force as a share of the breaking force.
     """
 
     name, title, key, color = "joints", "Joints", "q", GREEN

@@ -503,9 +503,10 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies on which they stand. O(characters · log shapes).
 
-    Also store the point under the feet of each character [px]. The velocity of the character's body is set to that of
-    the ground at this point. It is set to 0 on ground slower than `slow` [px/s], which the velocity would keep awake.
-    shapes: SHAPE table; gravity_x, gravity_y [px/s²]; characters_inout: CHARACTER table; bodies_inout: BODY table.
+    Also store the point under the feet of each character [px]. If the ground moves at this point faster than `slow`
+    [px/s], the velocity of the character's body is set to that of the ground. A slower velocity is not used, because it
+    would keep the ground awake. shapes: SHAPE table; gravity_x, gravity_y [px/s²]; characters_inout: CHARACTER table;
+    bodies_inout: BODY table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]

@@ -145,7 +145,10 @@ class Disagreement(Shooter):
         canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
 
     def _draw_curves(self, canvas):
-        """Draw one curve for each collision tier: the share of wrong hits among its hits, over the tested moments."""
+        """Draw one curve for each collision tier over the tested moments.
+
+        A curve shows the share of the tier's hits that are wrong.
+        """
         area = CURVES
         canvas.surface.fill(INK, area)
         top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])

@@ -41,7 +41,7 @@ class Prints:
     def add_piece(self, piece, parent):
         """Add a fragment that has just been carved off a body. Call this method before the fragment moves.
 
-        parent: (Print, mask, (x, y, angle)) of the carved body, as they were before the carve.
+        parent: the carved body before the carve, as a tuple (Print, mask, pose). The pose is (x, y, angle).
         """
         (image, left, top), mask, (x, y, angle) = parent
         (own,) = piece.shapes

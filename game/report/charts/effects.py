@@ -1,4 +1,7 @@
-"""Chart 10: benefit and cost of each effect: the change of a scene's run without the effect, and its time per step."""
+"""Chart 10: benefit and cost of each effect. The benefit is the change of a scene's run without the effect.
+
+The cost is the effect's time per step.
+"""
 
 from collections.abc import Sequence
 

@@ -61,7 +61,10 @@ class Setting(NamedTuple):
         return f"{self.solver}, {substeps_text(self.substeps)}{times}"
 
     def started(self, linkage: Linkage) -> tuple[Callable[[], object], Callable[[], np.ndarray]]:
-        """Return (step, poses) of a new simulation of the linkage: functions that make a step and read the poses."""
+        """Start a new simulation of the linkage, and return two functions (step, poses).
+
+        step() makes one step, and poses() returns the poses of the bodies.
+        """
         if self.solver == PEER:
             space = Space(linkage, self.iterations, int(self.substeps), BIASES[self.bias])
             return space.step, space.poses

@@ -1,4 +1,7 @@
-"""Chart 15: claims of papers that no other chart tests: number of corners, GJK iterations, persist events."""
+"""Chart 15: claims of papers that no other chart tests.
+
+They are about the number of corners of polygons, iterations of GJK, and events for persisting contacts.
+"""
 
 from collections.abc import Sequence
 from math import pi

@@ -1,8 +1,11 @@
-"""Chart 14: the same work done by common libraries: pygame's rectangles and masks, and pymunk's solver.
+"""Chart 14: comparison with common libraries, which do the same work.
 
-Each library is shown at its best. pygame is measured as a plain program and as the best program that we know. pymunk is
-measured with several overlap slops, iterations and substeps. Sprites are moved by whole pixels, because pygame compares
-whole pixels. The reference is the set of pairs of masks that share a pixel, found by testing all pairs.
+They are pygame's rectangles and masks, and pymunk's solver. Each library is shown at its best. pygame is measured as a
+plain program and as the best program that we know. pymunk is measured with several overlap slops, iterations and
+substeps.
+
+Sprites are moved by whole pixels, because pygame compares whole pixels. The reference is the set of pairs of masks that
+share a pixel, found by testing all pairs.
 """
 
 from collections.abc import Callable, Sequence

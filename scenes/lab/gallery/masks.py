@@ -95,7 +95,7 @@ def scatter(side):
 
 
 def missed(side):
-    """Return the share of all overlaps so far that the engine did not report [%].
+    """Return the percentage of overlaps that the engine did not report, among all overlaps so far.
 
     side: one of the page's two worlds (page.Side).
     """

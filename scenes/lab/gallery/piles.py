@@ -70,7 +70,7 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return the distance between the large crate and its height on rigid crates [mm].
+    """Return how far the large crate is from the height at which it would rest if crates were rigid [mm].
 
     side: one of the page's two worlds (page.Side).
     """
