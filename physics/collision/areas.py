@@ -136,9 +136,9 @@ def put_back(full, places, manifolds_out):
 
 
 def _in_full(tables, manifolds):
-    """Return the CONTACT rows with point, normal and depth of pairs of masks computed at the present poses.
+    """Compute the contacts of pairs of masks again, with point, normal and depth at the present poses. Return all rows.
 
-    Only masks that still overlap are updated; all other rows are returned unchanged.
+    Only masks that still overlap are updated; all other CONTACT rows are returned unchanged.
     """
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")

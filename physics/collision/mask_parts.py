@@ -274,8 +274,7 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 
 
 def _pair_keys(shapes, pairs):
-    """Return an integer key (n,) for each pair of shapes. Pairs with parts of the same two whole shapes have equal
-    keys.
+    """Return an integer key (n,) for each pair of shapes. Pairs of parts have the key of their whole shapes.
 
     pairs (n, 2): row numbers in SHAPE. The keys sort like the row numbers of the whole shapes.
     """

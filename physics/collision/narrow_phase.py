@@ -412,7 +412,10 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _without_hulls(self, workspace, shapes):
-        """Return the workspace with an empty cache of hulls. shapes: number of shapes for which the cache gets room."""
+        """Clear the cache of hulls in the workspace, and return the workspace.
+
+        shapes: number of shapes for which the cache gets room.
+        """
         if len(workspace.hull_rows) < min(shapes, HULLS):
             hulls, rows = empty_hulls(min(HULLS, 1 << (2 * shapes).bit_length()))
             workspace = workspace._replace(hulls=hulls, hull_rows=rows)
@@ -421,9 +424,9 @@ class NarrowPhase:
         return workspace
 
     def _remember(self, batch, previous):
-        """Return the workspace with the contacts of the last step on one-way ground, see remember_ground.
+        """Add the contacts of the last step on one-way ground to the workspace, and return the workspace.
 
-        previous: CONTACT rows of the last step; batch: input of the pass, a manifold.Batch.
+        See remember_ground. previous: CONTACT rows of the last step; batch: input of the pass, a manifold.Batch.
         """
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))

@@ -178,8 +178,8 @@ class Library:
     def _add_known_hulls(self, library, rows):
         """Copy convex shapes from another library, all at once. Return their new geometry rows.
 
-        rows: geometry rows of the shapes in `library`. Shapes that `library.add` would find as already stored are also
-        found by `add` of this library.
+        The entries by which `add` recognises equal shapes are copied, too. rows: geometry rows of the shapes in
+        `library`.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
