@@ -13,7 +13,7 @@ NAMED = 5  # pairs or slots that a message names at most
 
 
 class StrategiesDisagree(AssertionError):
-    """Error: a broad phase found other pairs or boxes than the one whose results the world uses."""
+    """Error: another broad phase found other pairs or slots than the broad phase of the world."""
 
 
 class AsksAll:

@@ -36,7 +36,7 @@ class Seen:
 
 @contextmanager
 def compared(stop: bool = True) -> Iterator[Seen]:
-    """Compare the two forms of each stage's kernel that is called in the with block.
+    """Compare both forms of each stage's kernel that is called in the with block, and yield the `Seen`.
 
     Raises FormsDiffer: at the first difference if `stop` is True, otherwise at the end with all differences.
     """
@@ -86,8 +86,9 @@ class Copies:
         self.blocks = []  # (Blocks, copy)
 
     def of(self, value):
-        """Return a copy of an argument; tuples are copied element by element, other values than arrays are returned as
-        they are.
+        """Return a copy of an argument.
+
+        A tuple is copied element by element. A value that is not an array is returned as it is.
         """
         if isinstance(value, tuple):
             copies = [self.of(each) for each in value]
@@ -112,9 +113,9 @@ class Copies:
         return copy
 
     def take_over_empty_lanes(self):
-        """Copy the data that only a compiled pass writes: empty lanes, and data gathered within a pass.
+        """Copy from the originals the data that only the compiled form writes, which excludes them from the comparison.
 
-        These data are thereby excluded from the comparison.
+        These are empty lanes, and data gathered within a pass.
         """
         for blocks, copy in self.blocks:
             copy.gathered[:] = blocks.gathered
@@ -155,7 +156,7 @@ def columns(array, copy):
 
 
 def same_elements(one, two):
-    """Return an array of bool: whether two elements have the same bits or are both NaN."""
+    """Return an array of bool: whether each two elements have the same bits or are both NaN."""
     if one.dtype.kind != "f":
         return one == two
     return ((one == two) & (np.signbit(one) == np.signbit(two))) | (np.isnan(one) & np.isnan(two))

@@ -1,8 +1,9 @@
-"""`python -m tests.accuracy DIR`: write docs/accuracy.json, docs/accuracy.md and its fifteen plots from a full report
-in DIR.
+"""Write docs/accuracy.json, docs/accuracy.md and its fifteen plots from the results of a report.
 
-`python -m tests.accuracy DIR CHART` replaces one chart by that of a report of this chart alone (--only CHART). The page
-then says that this chart was measured separately, and on which machine, until a full report replaces all charts.
+    python -m tests.accuracy DIR          all charts, from the full report in DIR
+    python -m tests.accuracy DIR CHART    one chart, from a report of this chart alone (--only CHART)
+
+A chart that was measured separately keeps a note with its machine on the page, until a full report replaces all charts.
 """
 
 import json
@@ -49,9 +50,10 @@ def main(folder: Path, only: str = "") -> None:
 
 
 def replaced(kept: dict, rows: dict, apart: dict) -> dict:
-    """Return the stored report with the rows of some charts replaced by separately measured ones.
+    """Return a copy of the stored report in which some charts have new rows.
 
-    rows: {key of a chart: its rows}. apart: duration [s] and machine of the separate report.
+    kept: the stored report; rows: {key of a chart: its new rows}; apart: duration [s] and machine of the separate
+    report that measured these rows.
     """
     mine = {**kept.get("apart", {}), **dict.fromkeys(rows, apart)}
     return {**kept, "apart": mine, "rows": {**kept["rows"], **rows}}

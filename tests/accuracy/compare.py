@@ -1,7 +1,7 @@
 """`python -m tests.accuracy.compare FIRST SECOND`: compare two reports of one machine.
 
-It prints contradictions, and series of charts that are certainly slower or faster in the second report. A certain
-result of one report must not be wrong in the other. A tie contradicts none of its members.
+It prints the claims on which the reports contradict each other, and the series of charts that are certainly slower or
+faster in the second report.
 """
 
 import json
@@ -29,7 +29,10 @@ def read(folder: Path) -> Reports:
 
 
 def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Claim]:
-    """Return {text of a claim, without the name of the winner: Claim} of a report."""
+    """Return the claims of a report, {text: Claim}.
+
+    A text names the subject of a claim, not its winner. So the text is the same in two reports with different winners.
+    """
     found = {}
     for chart in charts:
         for claim in chart.claims(report[chart.key]):
@@ -38,7 +41,11 @@ def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Cl
 
 
 def contradicts(a: Claim, b: Claim) -> bool:
-    """Return whether a certain result of one claim is wrong according to the other."""
+    """Return whether two claims on the same subject contradict each other.
+
+    Two claims that name the cheapest method do so if they have no method in common. In a tie, a claim names several
+    methods. Other claims contradict each other if one holds and the other fails.
+    """
     if a.order and b.order:
         return not set(a.order) & set(b.order)
     return {a.verdict, b.verdict} == {HOLDS, FAILS}
@@ -52,9 +59,9 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
 
 
 class Change(NamedTuple):
-    """Ratio of a series' times in the second report to those in the first, and how certain it is.
+    """Change of a series' times from the first report to the second, and how certain it is.
 
-    It is relative to the series that were timed in turns with this one.
+    The ratio of times is relative to the series that were measured in the same job.
     """
 
     ratio: float  # median of the least times
@@ -67,11 +74,11 @@ class Change(NamedTuple):
 
 
 def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
-    """Return {(chart, series): Change} of the times in two reports.
+    """Return {(chart, series): Change} from the first report to the second.
 
-    A time counts relative to the median of its job, because a machine keeps its speed for minutes, but not for a whole
-    report. Jobs of fewer than LEAST series are left out, because there is nothing to compare them with. So are series
-    of fewer than ROWS times. A chart that shows the rows of another chart is skipped.
+    Each ratio of times is divided by the median ratio of its job, because the speed of the machine changes between jobs
+    but hardly within one. Jobs with fewer than LEAST series are left out, because their median says little. Series with
+    fewer than ROWS times are left out, and so are charts that show the rows of another chart.
     """
     found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
     for chart in charts:
@@ -94,7 +101,10 @@ def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -
 
 
 def _pairs(rows, others) -> Iterator[tuple[Row, list[float], list[float]]]:
-    """Yield (row, its seconds, its seconds in the other report) for every time that both lists of rows have."""
+    """Yield (row, times, times in the other report) for every measured time that is in both lists of rows.
+
+    rows, others: rows of one chart in the two reports. Times are [least, median] in seconds.
+    """
     theirs = {_name(row): row for row in others}
     for row in rows:
         for name, cost in _costs(row):

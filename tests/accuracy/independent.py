@@ -97,7 +97,10 @@ def placed(shape: shapely.Geometry, x: float, y: float, angle: float) -> shapely
 
 
 def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
-    """Return {tier: (false hits, hits)} of a sprite against itself, at random poses; half of them are true hits."""
+    """Return {tier: (false hits, hits)} of a sprite against itself at random poses.
+
+    The poses are so close that about half of the pairs share area.
+    """
     chance, shape = np.random.default_rng(77), outline(sprite)
     circle, hull = shapely.minimum_bounding_circle(shape).centroid, shape.convex_hull
     radius = shapely.minimum_bounding_radius(shape)
@@ -142,7 +145,10 @@ def tiers() -> Iterator[Point]:
 
 
 def fits() -> Iterator[Point]:
-    """Yield, for three fitted shapes, the area not shared with the sprite over the area of the union (chart 3)."""
+    """Yield the error in area of three shapes that are fitted to sprites (chart 3).
+
+    The error is the area that only the shape or only the sprite covers, divided by the area of their union.
+    """
     for tier, sprite in zip(("circle", "aabb", "hull"), SPRITES, strict=True):
         shape = outline(sprite)
         area = {
@@ -183,10 +189,11 @@ def contacts() -> Iterator[Point]:
 
 
 def overlaps_of_squares(x: float, y: float, between: float, turn: float, half: float) -> list:
-    """Return [(overlap, unit axis towards the second square)] along the axes of a square at an angle `turn` [rad].
+    """Return [(overlap [px], axis)] of two equal squares along the two axes of one of them.
 
-    x, y [px]: centre of the second of two equal squares relative to the first; between [rad]: angle between them; half
-    [px]: half the width of a square.
+    Each axis is a unit vector towards the second square. x, y: centre of the second square relative to the first [px];
+    between: angle between the squares [rad]; turn: angle of the square whose axes are used [rad]; half: half the width
+    of a square [px].
     """
     reach, found = half * (1.0 + abs(math.cos(between)) + abs(math.sin(between))), []
     for nx, ny in ((math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))):
@@ -197,7 +204,7 @@ def overlaps_of_squares(x: float, y: float, between: float, turn: float, half: f
 
 
 def continuous() -> Iterator[Point]:
-    """Yield the rates at which discs pass through a plate if only the poses of the steps are tested (chart 6)."""
+    """Yield the numbers of discs that pass through a plate if only the poses after each step are tested (chart 6)."""
     radius, width, half, lanes = 5.0, 1.0, 11.0, 1000
     aside = np.random.default_rng(8).uniform(-1.2, 1.2, lanes) * (half + radius)
     for ratio in (1.0, 3.0, 10.0):
@@ -215,7 +222,7 @@ def continuous() -> Iterator[Point]:
 
 
 def integration() -> Iterator[Point]:
-    """Yield errors of a first-order integrator, half an acceleration times a step (chart 5)."""
+    """Yield errors of a first-order integrator (chart 5). The error is half the acceleration times the time step."""
     gravity, slope = 320.0, math.radians(30.0)
     cases = (
         ("free fall", "projection", gravity),

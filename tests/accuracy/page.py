@@ -44,7 +44,7 @@ python -m tests.accuracy DIR            # writes this page from that report
 
 
 def panel_of(chart: Chart, rows: list) -> Panel:
-    """Return the panel of a chart whose title STORY gives for this chart."""
+    """Return the panel of a chart that the page shows. STORY has its title."""
     panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
     return next(panel for panel in panels if panel.title == STORY[chart.key])
 
@@ -64,12 +64,12 @@ def rows_of(kept: dict, chart: Chart) -> list:
 
 
 def dots(kept: dict, chart: Chart) -> list[Dot]:
-    """Return the dots of the panel that STORY selects of a chart."""
+    """Return the dots of a chart's panel on the page."""
     return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
 
 
 def charts() -> list[Chart]:
-    """Return the charts in STORY, in the order of their numbers."""
+    """Return the charts that the page shows, those in STORY, in the order of their numbers."""
     return [chart for chart in CHARTS if chart.key in STORY]
 
 

@@ -56,10 +56,10 @@ def test_what_has_nothing_beside_it_and_what_is_one_row_is_not_judged():
 
 
 def test_in_a_kept_report_the_series_that_was_slowed_down_is_named_and_no_other():
-    """In a report compared with a copy of slowed-down times, exactly the slowed series is reported.
+    """Compared with a copy in which one series is 1.5 times slower, exactly this series is reported.
 
-    The copy simulates another run: all times of a job are up to 1.5 times as long, with the usual variation between
-    runs.
+    The copy simulates a second run: the times of each job are longer by a common factor of 1 to 1.5, and each time
+    varies by up to 4 %.
     """
     kept, chance = read()["rows"], Random(5)
     kept_charts = [chart for chart in charts() if not chart.of]

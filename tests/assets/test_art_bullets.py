@@ -1,4 +1,4 @@
-"""Enemy bullets are visible on every ground and under every cloud, and distinguishable by colour-blind viewers."""
+"""Enemy bullets are visible on every background and under every cloud, and distinguishable by colour-blind viewers."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,11 @@ CORE_LEAST, RING_LEAST, INNER_LEAST = 0.30, 0.18, 0.25  # OKLab lightness differ
 
 
 def seen(ground):
-    """Return the lightness of a ground's pixels, (n,) each: the bare ground, and the ground under all its clouds."""
+    """Return the lightness of all pixels of a shooter's background, two arrays (n,).
+
+    The first is of the background alone, the second of the background under all its clouds. ground: name of the
+    background.
+    """
     bare = backdrop(ground)[..., :3].astype(float)
     under = bare.copy()
     for name in GROUNDS[ground]:

@@ -205,8 +205,8 @@ def test_backdrop_is_seamless(name, axes):
 
 @pytest.mark.parametrize("ground", ["sea", "coast", "storm"])
 def test_shooter_ground_is_dark_and_muted(ground):
-    """A ground of the shooter has an OKLab lightness of at most 60 % and a chroma of at most 0.09, so that bullets are
-    visible.
+    """A background of the shooter has an OKLab lightness of at most 60 % and a chroma of at most 0.09, so that bullets
+    are visible.
     """
     lab = oklab(backdrop(ground)[..., :3].reshape(-1, 3))
     assert lab[:, 0].max() <= 0.605

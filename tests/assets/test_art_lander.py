@@ -33,7 +33,10 @@ def test_a_pad_stands_on_level_ground_under_air(moon, pad):
 
 
 def reached(solid, start):
-    """Return the cells that a ship can reach from a position [px]."""
+    """Return the cells that a ship can reach, a bool array. A cell is CELL px wide.
+
+    solid: the pixels of the ground; start: (x, y) at which the ship starts [px].
+    """
     height, width = (size // CELL for size in solid.shape)
     closed = solid[: height * CELL, : width * CELL].reshape(height, CELL, width, CELL).any(axis=(1, 3))
     for _ in range(SHIP):

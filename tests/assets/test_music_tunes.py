@@ -24,7 +24,7 @@ def decibels(samples):
 
 
 def shares(samples, *edges):
-    """Return the shares of the power between neighbouring edges [Hz]."""
+    """Return the share of the power in each frequency band. edges: the limits of the bands [Hz], in ascending order."""
     power = np.abs(np.fft.rfft(samples)) ** 2
     hertz = np.fft.rfftfreq(len(samples), 1 / RATE)
     return [
@@ -33,7 +33,7 @@ def shares(samples, *edges):
 
 
 def loudness(sides):
-    """Return the loudness [dB] by which the level is set: low frequencies, which add little, are left out."""
+    """Return the loudness of a tune [dB]. Frequencies below 100 Hz are left out, because they add little to it."""
     return decibels(sides - low_pass(sides, 100.0, RATE))
 
 

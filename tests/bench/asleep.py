@@ -1,4 +1,4 @@
-"""Cost of sleeping bodies: a step of 100,000 sleeping boxes, and with one body awake, relative to a step of an empty
+"""Time of a step with 100,000 sleeping boxes, and with one body awake among them, relative to a step of an empty
 world.
 """
 
@@ -42,8 +42,9 @@ def _boxes(count, high):
 
 
 def put_to_sleep(world: World, most: int = 400) -> int:
-    """Step until all bodies sleep. Returns the number of steps. Raises RuntimeError if a body is awake after `most`
-    steps.
+    """Step until all bodies sleep, and return the number of steps.
+
+    Raises RuntimeError if a body is awake after `most` steps.
     """
     for number in range(most):
         world.step()

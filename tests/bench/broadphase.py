@@ -1,7 +1,8 @@
-"""Broad phases on four layouts of 100 to 50,000 bodies: µs per step with none, few and all moving, and growth.
+"""Broad phases on four layouts of 100 to 50,000 bodies: µs per step while none, 2 % or all of the bodies move.
 
-The boxes are 8 to 16 px, with about one overlap per body in the even layout. Brute force is left out where a step takes
-seconds. The last table shows which broad phase suits which layout.
+The tables also show how the time grows with the number of bodies. The boxes are 12 px wide, with about one overlap per
+body in the even layout. Brute force is left out where a step takes seconds. The last table shows which broad phase
+suits which layout.
 """
 
 import math
@@ -21,14 +22,17 @@ SPEED = 60.0  # px/s
 
 
 def giant(rng, n):
-    """Return (positions, extra bodies) of evenly spread bodies, with one extra body as wide as all of them."""
+    """Return (positions, extra bodies) of a layout with one body as wide as the area of the others.
+
+    The other n - 1 bodies are evenly spread. extra bodies: list of (shape, position).
+    """
     places, _ = charts.even(rng, n - 1)
     width = charts.SPACING * math.sqrt(n)
     return places, [(Polygon.box(width, 40.0), (width / 2, width))]
 
 
 def alone(layout):
-    """Return a layout of the report without its extra bodies."""
+    """Return a layout for LAYOUTS with the positions of a layout of the report, and without extra bodies."""
     return lambda rng, n: (layout(rng, n)[0], [])
 
 
@@ -79,13 +83,17 @@ class Findings:
         self.times.setdefault((moving, layout, size), {})[strategy] = seconds
 
     def fastest(self, moving, layout, size):
-        """Return the fastest broad phase for a layout and size, and how much slower the next one is, as text."""
+        """Return the fastest broad phase for a layout and size as text, such as "tree (1.4x)".
+
+        The number in brackets is the time of the next best broad phase divided by that of the fastest.
+        """
         (best, name), (second, _) = sorted((t, name) for name, t in self.times[moving, layout, size].items())[:2]
         return f"{name} ({second / best:.1f}x)"
 
     def ratios(self):
-        """Return {name: time of a broad phase / time of brute force} of all cases with moving
-        bodies and brute force.
+        """Return {name: time of a broad phase / time of brute force}.
+
+        Cases without moving bodies, without a time of brute force or with fewer than LEAST_TOLD bodies are left out.
         """
         return {
             f"{size} bodies {layout}, {moving}: {name} / brute": seconds / found["brute"]
@@ -105,7 +113,10 @@ def growth(times):
 
 
 def timed(strategies, layout, n, moving):
-    """Return {broad phase: function that steps its world and returns the time}; slow ones only for small worlds."""
+    """Return {broad phase: function}. A function steps its world and returns the time of the broad phase [s].
+
+    Broad phases that test every pair or sort both axes are left out above BRUTE_LIMIT bodies.
+    """
     return {
         name: partial(step_time, make_world(make(), layout, n, moving))
         for name, make in strategies.items()
@@ -114,7 +125,10 @@ def timed(strategies, layout, n, moving):
 
 
 def run(quick=False):
-    """Print the tables; return {name: time relative to brute force}."""
+    """Print the tables. Return {name: time of a broad phase / time of brute force}.
+
+    quick: True leaves out the largest size.
+    """
     sizes = SIZES[:3] if quick else SIZES
     strategies = {
         **BROADPHASES,

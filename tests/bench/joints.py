@@ -1,12 +1,13 @@
-"""Nanoseconds per joint and step: nets of 760 and 4,900 joints in both joint solvers and pymunk, asleep, and without
-joints.
+"""Time of joints in nets of 760 and 4,900 joints, in Hitbox and in pymunk: nanoseconds per joint and step.
 
     python -m tests.bench.joints
 
 A net of n x n balls hangs on its two upper corners and swings; each ball is pinned to its neighbours, as in Box2D's
-benchmark JointGrid. Runs advance in turns, one step each, so that other load on the machine affects them alike. The
-median of the processor time is printed. Hitbox takes 4 substeps, or as many as the loads need; pymunk takes ten
-iterations a step.
+benchmark JointGrid. Two more tables show the time of a sleeping net, and the cost of the effect of joints in a world
+that has none.
+
+Runs advance in turns, one step each, so that other load on the machine affects them alike. The median of the processor
+time is printed. Hitbox takes 4 substeps, or as many as the loads need; pymunk takes ten iterations a step.
 """
 
 import importlib
@@ -30,9 +31,7 @@ OURS = {
 
 
 def joints_of(wide):
-    """Return the pairs of positions ((row, column), (row, column)) of the balls that are pinned in a net of wide x wide
-    balls.
-    """
+    """Return the pairs of neighbouring balls in a net of wide x wide balls, each as ((row, column), (row, column))."""
     places = list(itertools.product(range(wide), repeat=2))
     return [((j, i), (j, i + 1)) for j, i in places if i + 1 < wide] + [
         ((j, i), (j + 1, i)) for j, i in places if j + 1 < wide
@@ -98,7 +97,10 @@ def asleep(wide: int) -> World:
 
 
 def boxes(joints: bool) -> World:
-    """Return a world of 400 boxes that fall on a floor. It has no joint; joints: True declares the effect."""
+    """Return a world of 400 boxes that fall on a floor, without any joint.
+
+    joints: True declares the effect of joints nevertheless.
+    """
     world = World(Effects.rigid_bodies().with_(sleeping=False, joints=joints), substeps=4)
     world.add_body(Polygon.box(2000, 20), position=(200, 420), kind="static")
     world.add_bodies(Polygon.box(16, 16), [(20.0 * (k % 20), 20.0 * (k // 20)) for k in range(400)])

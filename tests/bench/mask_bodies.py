@@ -28,7 +28,10 @@ def crates(shape, count):
 
 
 def pair_times(shape, count):
-    """Return (narrow phase of a resting pair, narrow phase of a new pair, step of a resting pair), seconds per pair."""
+    """Return the times of a pair of crates [s], each divided by the number of pairs.
+
+    They are (narrow phase at rest, narrow phase of a new pair, whole step at rest).
+    """
     world = crates(shape, count)
 
     def narrow():
@@ -54,10 +57,10 @@ def hills():
 
 
 def carve_times(count):
-    """Return (seconds of making the ground, seconds of each carve that keeps it whole, seconds of each carve that
-    splits it).
+    """Return the time of making the ground [s], and two lists of times of a carve [s].
 
-    The carves are discs along the surface of the ground.
+    Discs are carved along the surface of the ground. The first list has the carves that leave it in one piece, the
+    second the carves that split it.
     """
     world, rng = World(Effects.rigid_bodies().with_(carving=True)), np.random.default_rng(SEED)
     solid = hills()
@@ -85,7 +88,7 @@ def carve_times(count):
 
 
 def pygame_carve_time(count):
-    """Return the seconds in which pygame erases a disc from a Mask and finds the connected pieces."""
+    """Return the median time in which pygame erases a disc from a Mask and finds its connected pieces [s]."""
     rng = np.random.default_rng(SEED)
     side = int(2.0 * RADIUS)
     surface = pygame.Surface((side, side), pygame.SRCALPHA)
@@ -105,8 +108,9 @@ def pygame_carve_time(count):
 
 
 def run(quick=False):
-    """Print the tables; return {name: ratio}: masks over boxes, a carve over making the ground,
-    a carve over pygame's.
+    """Print the tables. Return {name: ratio of two times}.
+
+    The names say which two: masks and boxes, a carve and making the ground, or a carve and the same in pygame.
     """
     count = 50 if quick else 200
     times = {

@@ -99,8 +99,9 @@ def mean_step(field, world, read):
 
 
 def beside_the_best(count):
-    """Print the frame times of the moving sprites of chart 14; return {name: time over that of the best pygame
-    program}.
+    """Print the frame times of the sprites of chart 14, which move by whole pixels.
+
+    Return {name: time / time of the best pygame program}. count: number of sprites.
     """
     times = {row["series"]: row["cost"]["seconds"][1] for row in measure_sprites(count)}
     table(
@@ -115,7 +116,9 @@ def beside_the_best(count):
 
 
 def run(quick=False):
-    """Print the tables; return {name: Hitbox time over pygame time}."""
+    """Print the tables. Return {name: time of Hitbox / time of pygame}, and the ratios of two more benchmarks of
+    masks.
+    """
     pygame.init()
     count = 500 if quick else SPRITES
     field = Field(count)

@@ -43,8 +43,9 @@ def shape_of(size):
 
 
 def stages_now(world, spent):
-    """Return {stage: seconds} of the last step, including the seconds between its stages. spent: seconds of the whole
-    step.
+    """Return {stage: seconds} of the last step. A further entry has the time between the stages.
+
+    spent: seconds of the whole step.
     """
     stages = dict(world.profile.stages)
     return stages | {"between stages": spent - sum(stages.values())}
@@ -60,7 +61,7 @@ class Timed:
         self.stages: list[dict[str, float]] = []
 
     def step(self):
-        """Make one step with its edits, and return its seconds."""
+        """Apply the edit of this step, if there is one, and make the step. Return the seconds of both."""
         start = perf_counter()
         if self.edit:
             self.edit(self, self.n)
@@ -247,7 +248,7 @@ def small_worlds(make):
 def crowd(count, moving):
     """Return a function that makes a run with `count` discs in loose rows, without gravity.
 
-    moving: True gives each disc a random velocity, False gives all the same.
+    moving: True gives each disc a random velocity, False gives all discs the same velocity.
     """
 
     def scene(make):
@@ -263,8 +264,10 @@ def crowd(count, moving):
 
 
 class Scene(NamedTuple):
-    """A scene. steps: number of steps to measure. build(make): returns a run; make(items, ...)
-    makes it for one engine.
+    """A scene that each engine can run.
+
+    steps: number of steps to measure; build: function that returns a run, and is called with a function `make` of one
+    engine. make(items, ...) returns a run with these items.
     """
 
     steps: int
@@ -295,7 +298,10 @@ def sprites(side=20):
 
 
 def masks_and_boxes(steps):
-    """Return runs with a rain of 300 pixel masks and the same rain of boxes; two are added and removed in each step."""
+    """Measure a rain of 300 pixel masks, and the same rain of boxes. Return the result of in_turns().
+
+    In each step the two oldest bodies are removed and two are added.
+    """
 
     def make(shapes):
         rng, walls = np.random.default_rng(4), tray(600.0, 1200.0)
@@ -312,7 +318,10 @@ def masks_and_boxes(steps):
 
 
 def bullets(steps):
-    """Return runs with 5,000 bullets among 200 sprites, detection only: as masks and as boxes."""
+    """Measure 5,000 bullets among 200 sprites, as masks and as boxes. Return the result of in_turns().
+
+    Hits are only detected: nothing is pushed.
+    """
 
     def make(tier):
         world, rng = World(Effects()), np.random.default_rng(5)
@@ -327,7 +336,10 @@ def bullets(steps):
 
 
 def carving(steps):
-    """Return runs on ground of 1,200 x 200 pixels under 60 discs: with a hole carved in each step, and without."""
+    """Measure 60 discs on ground of 1,200 x 200 pixels. Return the result of in_turns().
+
+    In the run "carved" each step carves a hole; in the run "whole" the ground does not change.
+    """
 
     def make(carves):
         world = World(EFFECTS.with_(carving=True), gravity=(0.0, GRAVITY))
@@ -355,7 +367,10 @@ OWN = {
 
 
 def in_turns(runs, steps):
-    """Step all runs in turns. Return {name: (milliseconds of each step, {stage: median milliseconds})}."""
+    """Step all runs in turns. Return {name: (times of its steps [ms], {stage: median time [ms]})}.
+
+    runs: {name: run}.
+    """
     times = {name: [] for name in runs}
     for first in range(0, steps, TURN):
         for name, run in runs.items():
@@ -373,7 +388,7 @@ def stages_of(run):
 
 
 def measure(name, quick):
-    """Run one scene with all engines. Return {run: (milliseconds of each step, milliseconds by stage)}."""
+    """Measure one scene with all engines. Return the result of in_turns()."""
     if name in OWN:
         steps, build = OWN[name]
         return build(TURN if quick else steps)
@@ -390,8 +405,9 @@ def measure(name, quick):
 
 
 def show(name, found):
-    """Print the table of one scene. Return {"scene, run / reference": ratio of the medians}; the last run is the
-    reference.
+    """Print the table of one scene. Return {"scene, run / reference": ratio of the median times of a step}.
+
+    found: result of measure(); the last run in it is the reference.
     """
     *others, reference = found
     base = median(found[reference][0])
@@ -405,8 +421,9 @@ def show(name, found):
 
 
 def run(quick=False):
-    """Print the tables; return {name: ratio}: Hitbox over the peer, or a scene over its variant without the measured
-    feature.
+    """Print the tables of all scenes. Return {name: ratio of the median times of a step}.
+
+    The names say which times: Hitbox and pymunk, masks and boxes, or ground with and without carving.
     """
     ratios = {}
     for name in [*SCENES, *OWN]:

@@ -23,9 +23,10 @@ SLOWEST = 0.1  # [s] that a seek may take
 
 
 def measured(name: str, clock) -> dict[str, float]:
-    """Return the figures of one scene by name: total bytes, bytes per body and frame, key frames, seek times [s].
+    """Return the figures of one scene, {name: value}: memory, bodies, key frames and times.
 
-    clock: function that returns seconds.
+    "kB" is the whole memory. "a body" is the memory beyond BESIDE bytes, in bytes per moving body and frame. The times
+    of notes and seeks are in seconds. clock: function that returns seconds.
     """
     with patch("game.run.rewind.perf_counter", clock), patch("game.run.session.perf_counter", clock):
         session = Session(make_scene(name), BotSource())

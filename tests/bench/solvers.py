@@ -1,12 +1,14 @@
 """Pyramids of 10 to 5,050 boxes for 10 s, with each solver of this project and with pymunk, side by side.
 
-Every solver runs with 1, 2, 4 and 8 substeps, soft_step also with as many as the loads need ("auto"), pymunk at its
-defaults. Boxes of 32 px stand on the ground and on one another, with friction 0.6, gravity 10 m/s2 and 60 steps/s;
-nothing sleeps. All runs of a size advance in turns of a second each, so that other load on the machine affects them
-alike. pymunk has 10 iterations, no substeps and a collision slop of 0.1 px. Ours has a slop of 0.16 px, which it does
-not use at rest. sequential_impulse takes no substeps: it makes 2.5 passes for each substep of soft_step. The projection
-pushes out and does not stack, so it is shown at the small sizes only. At the end, two more tables show the times of the
-stages with four substeps, and the cost of a world that sleeps.
+Boxes of 32 px stand on the ground and on one another, with friction 0.6, gravity 10 m/s2 and 60 steps/s; nothing
+sleeps. All runs of a size advance in turns of a second each, so that other load on the machine affects them alike.
+
+soft_step and sequential_impulse run with the settings 1, 2, 4 and 8 substeps, soft_step also with as many as the loads
+need ("auto"). sequential_impulse makes 2.5 passes in place of each substep. The projection pushes out and does not
+stack, so it is shown at the small sizes only. pymunk runs at its defaults: 10 iterations, no substeps and a collision
+slop of 0.1 px. Hitbox has a slop of 0.16 px, which it does not use at rest.
+
+Two more tables show the times of the stages with four substeps, and the cost of a world that sleeps.
 """
 
 import math
@@ -125,9 +127,9 @@ HEADER = (
 
 
 def measure(rows, seconds):
-    """Run all solvers on one pyramid, a second each in turns. Print the table; return {name: time over pymunk's}.
+    """Step one pyramid with pymunk and with all solvers, in turns of a second each, and print the table.
 
-    rows: number of rows of the pyramid. seconds: simulated time.
+    Return {name: median time of a step / that of pymunk}. rows: number of rows of the pyramid; seconds: simulated time.
     """
     piles = [
         Ours(rows, solver, substeps) for solver in ("soft_step", "sequential_impulse") for substeps in (1, 2, 4, 8)
@@ -156,11 +158,11 @@ PASSES = 2 * 4  # of a step over its contacts: each of four substeps solves them
 
 
 def measure_stages(every):
-    """Measure the times of the stages of a step with four substeps. Print the table; return {name: narrow phase over
-    step}.
+    """Measure the time of each stage of a step with four substeps, and print the table.
 
-    every: numbers of rows of the pyramids. The time of a pass is that of the solver stage divided by manifolds and
-    passes, so it includes preparing and storing.
+    Return {name: time of the narrow phase / time of the step}. every: numbers of rows of the pyramids to measure. The
+    table also shows the time of a pass, which includes preparing and storing: the time of the solver's stage divided by
+    the numbers of manifolds and passes.
     """
     lines, ratios = [], {}
     for rows in every:
@@ -191,8 +193,9 @@ def measure_stages(every):
 
 
 def measure_sleep(rows):
-    """Measure the time of a step with all bodies awake and with all asleep. Print the table; return {name: asleep over
-    awake}.
+    """Measure a step while all bodies are awake and a step while all sleep, and print the table.
+
+    Return {name: time asleep / time awake}. rows: number of rows of the pyramid.
     """
     lines, ratios, boxes = [], {}, rows * (rows + 1) // 2
     for solver in ("soft_step", "sequential_impulse"):
@@ -227,7 +230,11 @@ def measure_sleep(rows):
 
 
 def run(quick=False):
-    """Print the tables; return {name: ratio}: time over pymunk's, narrow phase over step, asleep over awake."""
+    """Measure all pyramids and print the tables. Return {name: ratio of two times}.
+
+    The names say which two: a solver and pymunk, the narrow phase and the whole step, or a sleeping and an awake world.
+    quick: True measures fewer and smaller pyramids.
+    """
     ratios = {}
     every = ROWS[1:3] if quick else ROWS
     for rows in every:

@@ -61,9 +61,10 @@ def line(name, limit, cells, quoted):
 
 
 def study(chosen, names, seeds):
-    """Simulate the rows, and print each row when it is finished. seeds: number of seeds of each row, None for all.
+    """Simulate the rows with each engine, and print each row when it is finished.
 
-    Returns {row: {limit, unit, source, engines: {name: its verdict}}}. chosen: rows. names: names of engines.
+    Return {row: {limit, unit, source, engines: {name: its verdict}}}. chosen: rows; names: names of engines; seeds:
+    number of seeds of each row, None for all.
     """
     made, found, started = engines(), {}, perf_counter()
     played = {name: Played(made[name]) for name in names}

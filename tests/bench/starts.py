@@ -60,7 +60,11 @@ print(json.dumps({"frames": frames, "worked": worked, "ready": ready[:1], "compi
 
 
 def start(arguments, seconds, cache, display):
-    """Run the program once and return the measurements that it prints about itself, a dict."""
+    """Run the program once and return its measurements of itself, a dict.
+
+    arguments: of the command line; seconds: duration of play; cache: folder of compiled kernels; display: False for the
+    dummy driver.
+    """
     environment = {**os.environ, "HITBOX_CACHE_DIR": cache, "PYTHONPATH": str(ROOT)}
     with tempfile.TemporaryDirectory() as data:
         environment["HITBOX_DATA"] = data

@@ -36,9 +36,10 @@ def sprites():
 
 
 class Pairs:
-    """Pairs of a sprite with itself. where: poses of the second sprite relative to the first (offsets only if `snap`).
+    """Pairs of a sprite with itself, in random order as in a world.
 
-    The rows of the pairs are shuffled, as in a world.
+    solid: pixels of the sprite; where: poses (x, y, angle) of the second sprite relative to the first; snap: True for
+    masks that are snapped to whole pixels. Their poses must have whole offsets and no rotation.
     """
 
     def __init__(self, solid, where, snap):
@@ -58,7 +59,10 @@ class Pairs:
         self.kind = MASKS if snap else MASKS_EXACT
 
     def hits(self, run):
-        """Return (whether each pair overlaps, least seconds per pair of some runs, their median)."""
+        """Test all pairs several times. Return (whether each pair overlaps, least, median time per pair [s]).
+
+        run: function that tests a batch of pairs.
+        """
         count, seconds = len(self.candidates), []
         kinds = np.full(count + 1, self.kind, np.int64)
         tables = self.library.tables
@@ -89,9 +93,9 @@ def half_over(rng, count):
 
 
 def is_near(solid, where):
-    """Return, for each pose, whether the second sprite overlaps the first when it is moved by up to 2 px.
+    """Return for each pose whether the sprites overlap after a small move of the second one.
 
-    The moves go in 16 directions.
+    It is moved by 1 and by 2 px in 16 directions.
     """
     near = np.zeros(len(where), bool)
     for way in np.arange(16) * np.pi / 8:
@@ -102,7 +106,10 @@ def is_near(solid, where):
 
 
 def time_overlap(solid, where):
-    """Return the seconds of a call of pygame's Mask.overlap, which tests at whole pixels only. where: poses."""
+    """Return the least time of one call of pygame's Mask.overlap [s].
+
+    where: poses of the second sprite; only their offsets are used, in whole pixels.
+    """
     mask = pygame.mask.from_surface(pygame.Surface((SIZE, SIZE)), 255)
     for y, x in zip(*np.nonzero(solid), strict=True):
         mask.set_at((int(x), int(y)))
