@@ -1,5 +1,6 @@
-"""Worlds with shapes of all kinds, and invalid numbers for bodies, with which the two forms of
-a kernel might differ.
+"""Worlds and numbers for which the compiled and the plain form of a kernel might differ.
+
+The worlds have shapes of all kinds. The numbers are invalid values for bodies.
 """
 
 import math

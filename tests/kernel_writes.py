@@ -69,7 +69,7 @@ def bind(target, value, rows):
 
 
 def behind(node, rows):
-    """Return the set of arguments of which an expression may be a part.
+    """Return the set of arguments that an expression may refer to, as a whole or in part.
 
     It is empty for an attribute whose name ends in WRITTEN, which declares the write. rows: {name: set of arguments}.
     """

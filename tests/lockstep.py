@@ -1,8 +1,10 @@
 """Comparison of variants of one scene that are stepped side by side, by their digests after every frame.
 
-The variants: the scene twice, drawn, under each broad phase, with the broad phase switched, compiled and plain. None of
-these may change the result. If one does, the first frame that differs is reported, with the part of the scene. Every
-change is tested with one run that compares all broad phases in each step (tests/all_broadphases.py). The runs under
+No variant may change the result. The variants are the scene itself, drawn, under each broad phase, with the broad phase
+switched during the run, and without compiled kernels. If one differs, the first frame that differs is reported, with
+the part of the scene.
+
+The regular tests use one run that compares all broad phases in each step (tests/all_broadphases.py). The runs under
 each broad phase are nightly tests.
 
 `python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line. It is used to run a

@@ -8,10 +8,10 @@
 A test is slow if it takes a quarter of a second of processor time, including its child processes; from 0.8 seconds on
 it is nightly. The time in which numba compiles or loads kernels is left out, because the first test that needs a kernel
 would pay for all. A shared fixture counts for each test that uses it. Other load on the machine lengthens processor
-time less than clock time, by about a third where caches are shared.
+time by about a third where caches are shared, and clock time by more.
 
-Without numba other tests are slow. They are in a list of their own, which an environment without numba reads in
-addition to the first list, and writes.
+In an environment without numba, more tests are slow. They are in a second list, which is read in addition to the first
+one and written only in such an environment.
 """
 
 import argparse

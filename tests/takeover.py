@@ -1,7 +1,8 @@
-"""Comparison of a scene whose plain kernels are replaced by compiled forms at random steps with the scene compiled.
+"""Comparison of two runs of one scene: compiled, and with plain kernels that are replaced at random steps.
 
-No process or thread is started: the wanted forms are loaded or compiled between two random steps. Both runs share the
-kernels of the process, so the compiled scene runs first and its digests are stored.
+The plain kernels are replaced by their compiled forms. No process or thread is started for this: a form is loaded or
+compiled between two steps. Both runs share the kernels of the process, so the compiled scene runs first and its digests
+are stored.
 """
 
 import random
@@ -34,8 +35,9 @@ def beginning_plain() -> Iterator[None]:
 
 
 class TakeOvers:
-    """Replacement of plain kernels: before each frame, each wanted compiled form is delivered with the probability
-    `chance`.
+    """Replacement of plain kernels by their compiled forms at random.
+
+    Before each frame, each compiled form that a kernel waits for is delivered with the probability `chance`.
     """
 
     def __init__(self, seed: int, chance: float) -> None:

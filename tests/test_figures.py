@@ -47,7 +47,11 @@ def kept(path):
 
 
 def ratios(bench, pattern):
-    """Return {groups of the match: ratio} of the ratios of a benchmark whose names match a pattern."""
+    """Return the stored ratios of one benchmark whose names match a pattern, {groups: ratio}.
+
+    bench: name of the benchmark; pattern: regular expression for the whole name of a ratio; groups: tuple of the texts
+    that match the groups of the pattern.
+    """
     found = {}
     for name, value in kept("bench/0.1.0.json")["ratios"][bench].items():
         match = re.fullmatch(pattern, name)
@@ -62,7 +66,10 @@ def words(text):
 
 
 def sweeps_lead():
-    """Return a sentence: time of the next best broad phase over that of sweep and prune if all bodies move."""
+    """Return a sentence on the lead of sweep and prune if all bodies move.
+
+    The lead is the time of the next best broad phase divided by that of sweep and prune.
+    """
     shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
     leads = {}
     for place in {(size, layout) for size, layout, _ in shipped}:
@@ -77,7 +84,10 @@ def sweeps_lead():
 
 
 def pyramids():
-    """Return a sentence on the time of awake pyramids relative to pymunk, with substeps by load and with four."""
+    """Return a sentence on the time of a step of awake pyramids.
+
+    Times with four substeps are relative to pymunk, and a time with substeps by load is relative to four substeps.
+    """
     default, four = (
         {int(boxes): value for (boxes,), value in ratios("solvers", rf"(\d+) boxes, soft_step {some} / pymunk").items()}
         for some in ("auto", "4")
@@ -90,7 +100,10 @@ def pyramids():
 
 
 def moving():
-    """Return a sentence on the time of three moving scenes relative to pymunk, with substeps by load and with four."""
+    """Return a sentence on the time of a step of three moving scenes relative to pymunk.
+
+    Hitbox runs with substeps by load and with four substeps.
+    """
     some = {
         name: [ratios("moving", rf"({name}.*), substeps {each} / pymunk").popitem()[1] for each in ("auto", "4")]
         for name in ("rain of 1,500", "pyramid", "tumbler")
@@ -104,9 +117,9 @@ def moving():
 
 
 def at_equal_overlap():
-    """Return a sentence on the time of pyramids relative to pymunk.
+    """Return a sentence on the time of a step of pyramids relative to pymunk at equal overlap.
 
-    Each engine has its cheapest settings with an overlap of at most 0.1 px.
+    Each engine has the cheapest of its settings with an overlap of at most 0.1 px.
     """
     rows, ratios = kept("accuracy.json")["rows"]["peers"], []
     for boxes in (55, 210, 1035):
@@ -120,7 +133,10 @@ def at_equal_overlap():
 
 
 def best_program():
-    """Return a sentence on the time of sprites moved by whole pixels, relative to the best pygame program."""
+    """Return a sentence on the time of a frame relative to the best pygame program.
+
+    The sprites of both programs move by whole pixels.
+    """
     found = ratios("masks", r"([0-9]+) sprites, (.*) / the best pygame program")
     recipe, move, step = (
         " and ".join(f"{found[count, name]:.2f}" for count in ("300", "2000"))
@@ -141,7 +157,10 @@ def crater():
 
 
 def sinks():
-    """Return two sentences on the overlap of two piles, one with substeps by load and one with four substeps."""
+    """Return two phrases on overlaps.
+
+    The first is on a heavy body on a light one with substeps by load, the second on a high column with four substeps.
+    """
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1

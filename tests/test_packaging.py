@@ -150,8 +150,9 @@ def environment_beside(folder):
 
 @pytest.fixture(scope="module")
 def user(made, tmp_path_factory):
-    """Return the environment of a user who has the wheel installed and a project with modules
-    named as the checkout's.
+    """Return the environment of a user who has installed the wheel.
+
+    The user's project has modules with the same names as those of the checkout.
     """
     folder = tmp_path_factory.mktemp("user")
     python, command, site = environment_beside(folder / "environment")

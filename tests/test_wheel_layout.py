@@ -235,7 +235,10 @@ def test_names_that_are_derived_lead_somewhere():
 
 @pytest.fixture(scope="module")
 def staged(tmp_path_factory):
-    """Return a folder with the project as in a wheel, and a user's project with modules named as the checkout's."""
+    """Return a folder with the project as in a wheel, and beside it a user's project.
+
+    The user's project has modules with the same names as those of the checkout.
+    """
     folder = tmp_path_factory.mktemp("staged")
     layout.stage(ROOT, folder / "site")
     own_modules(folder / "project")

@@ -46,9 +46,9 @@ def is_documented(error):
 
 
 class Runner:
-    """Runner of lines in a namespace of its own.
+    """Runner of a program's lines in a namespace of its own.
 
-    strategy: broad phase that replaces all that the lines name; None to use those.
+    strategy: source text of a broad phase that replaces every one that the lines set; None to keep those of the lines.
     """
 
     def __init__(self, strategy=None):
@@ -149,7 +149,11 @@ def failure_of(lines, strategy=None):
 
 
 def write_program(seed, lines=LINES):
-    """Write a random program, and run each line as it is written. Return (lines, failure or None, strategy)."""
+    """Write a random program, and run each line as it is written. Return (lines, failure or None, strategy).
+
+    A program without a failure is run again with another broad phase. strategy: source text of this broad phase, None
+    if the program failed before.
+    """
     rng = random.Random(seed)
     writer, runner = Writer(rng), Runner()
     failure = runner.run(writer.first())

@@ -32,10 +32,10 @@ def shrink(lines, failure, strategy=None, tries=4000):
 
 
 def fewer_lines(lines, fails):
-    """Return the lines without runs of lines that are not needed; the runs are half as long in each round (delta
-    debugging).
+    """Return the lines without those that the failure does not need (delta debugging).
 
-    fails: function that tells whether a list of lines still fails in the same way.
+    Groups of successive lines are left out on trial; in each round the groups are half as long. fails: function that
+    returns whether a list of lines still fails in the same way.
     """
     size = max(len(lines) // 2, 1)
     while size:

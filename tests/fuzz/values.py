@@ -67,9 +67,9 @@ class Values:
     # --- shapes ----------------------------------------------------------------------------------------------------
 
     def shape(self, kind="dynamic", also_wrong=0.02):
-        """Return the text of a random shape that a body of a kind may have.
+        """Return the text of a random shape for a body of a kind.
 
-        also_wrong: probability of a shape from all kinds, which a dynamic body may not have.
+        also_wrong: probability that a dynamic body gets a shape from all kinds, some of which it may not have.
         """
         of_all = kind != "dynamic" or self.chance(also_wrong)
         text = getattr(self, "_" + self.rng.choice(STILL if of_all else MOVING))()

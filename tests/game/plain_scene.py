@@ -1,4 +1,4 @@
-"""Common base class of scenes for tests of the shell, whose worlds are stepped without anything else."""
+"""Common base class of the scenes in tests of the shell: it steps the worlds and does nothing else."""
 
 
 class Plain:

@@ -158,9 +158,9 @@ def test_a_running_scene_is_not_asked(frozen):
 
 
 def test_a_mask_that_rests_by_its_parts_is_explained():
-    """A contact of a mask that rests on its outline parts is explained; it once ended the program.
+    """The inspector explains a contact of a mask that rests on its outline parts.
 
-    The mask and the parts by which it touches have different ids.
+    The mask and the parts by which it touches have different ids. Such a contact once ended the program.
     """
     world = World(Effects.rigid_bodies(), gravity=(0.0, 320.0))
     table = np.ones((12, 40), bool)

@@ -66,8 +66,8 @@ def test_who_is_not_to_meet_is_not_asked():
 def flown():
     """Play the shooter by its bot with the overlay on. Return (pairs, texts, overlays).
 
-    pairs: for some steps, (ids of the false hits by a test of every pair, ids by the overlay). texts: for each new
-    mark, whether the picture has a text about it.
+    pairs: for each compared step, (ids of the false hits by a test of every pair, ids by the overlay); texts: for each
+    new mark, whether the picture has a text about it; overlays: the Overlays at the end.
     """
     scene = Registry(SCENES).scene_class("shooter")(seed=1)
     session, overlays = Session(scene, BotSource()), Overlays(["disagreement"])
@@ -84,7 +84,11 @@ def flown():
 
 
 def slow_lies(world):
-    """Return the ids of the pairs with a sprite whose boxes share area but no pixel, found by a test of every pair."""
+    """Return the pairs of ids that are false hits of boxes, found by a test of every pair.
+
+    The boxes of such a pair share area, but its exact shapes share none. At least one of the two shapes is a sprite's
+    mask.
+    """
     found = set()
     mask_of = {body.id: body.shapes[0] for body in world}
     filters = {body.id: body.filter for body in world}
@@ -119,7 +123,10 @@ def test_the_players_own_box_would_have_died(flown):
 
 
 class Visit(Scene):
-    """Scene in which another corner moves into the box of the player's corner in `depth` steps of 4 px, and back."""
+    """Scene in which an L-shaped mask moves into the box of the player's, which has the same shape, and back.
+
+    depth: number of steps in which it moves in, by 4 px each.
+    """
 
     name, title, about, effects = "test/visit", "Visit", "", Effects()
     depth = 2

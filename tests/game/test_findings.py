@@ -46,8 +46,9 @@ costs = count(1)
 
 
 def tiers_of(request):
-    """Return measurements {tier: figures} of a pair of sprites from few poses and some tiers;
-    other tests measure all.
+    """Return the measured figures of a pair of sprites, {tier: figures}. request: SpriteRequest of a scene.
+
+    To save time, only 200 poses and four tiers are measured. Other tests measure all of them.
     """
     found = {}
     poses = poses_around(*request, count=200)
@@ -58,7 +59,10 @@ def tiers_of(request):
 
 
 def figures_of(scene):
-    """Return made-up figures for the measurement request of a scene, in place of real measurements."""
+    """Return figures for the measurement request of a scene.
+
+    The figures of a pair of sprites are measured; those of runs are made up.
+    """
     request = scene.measured()
     if isinstance(request, SpriteRequest):
         return tiers_of(request)

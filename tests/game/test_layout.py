@@ -23,7 +23,7 @@ LAYERS = {"none": lambda scene: (), "all": lambda scene: layer_names(), "its own
 
 @pytest.fixture(scope="module")
 def plays():
-    """Return a function of a scene's name that returns its Play after a second and a half of the bot.
+    """Return play_of(name), a function that returns the Play of a scene after its bot has played for 1.5 s.
 
     Only the last Play is cached; it is made when a test first requests it.
     """
@@ -90,9 +90,10 @@ def test_the_largest_numbers_fit():
 
 @pytest.mark.parametrize("name", SCENES)
 def test_text_is_apart_and_readable_while_it_goes_on(plays, name):
-    """Text does not overlap while a scene is paused, slow or playing, with all overlays or its own and the panel.
+    """Text does not overlap while a scene plays, plays slowly or is paused.
 
-    Without overlays the text is readable, too.
+    This holds with all overlays, and with the scene's own overlays and the open panel. Without overlays and panel the
+    text is readable, too.
     """
     play = plays(name)
     assert_text_is_apart_with(play, SIZES[0], False, "all")

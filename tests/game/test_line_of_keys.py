@@ -22,9 +22,7 @@ LAST = "Esc menu"
 
 @pytest.fixture(scope="module")
 def plays():
-    """Return a function of a scene's name and a step number that returns the scene's Play at this step of the bot's
-    run.
-    """
+    """Return play_of(name, step), a function that returns the Play of a scene after a number of steps of its bot."""
     kept = {}
 
     def play_of(name, step):

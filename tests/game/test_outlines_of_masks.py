@@ -97,9 +97,10 @@ def test_worlds_without_response_have_no_outlines():
 
 
 def test_masks_are_shown_where_they_are_where_bodies_are_pushed():
-    """With response, a mask is drawn and hit at its pose although its rotated pixels are computed only when needed.
+    """In a world with response, a mask is drawn and hit at its pose.
 
-    Without them all masks were drawn at (0, 0).
+    Such a world computes the rotated pixels of a mask only when they are needed. Until then, masks were once drawn at
+    (0, 0).
     """
     world = World(Effects.rigid_bodies(), gravity=(0.0, 0.0))
     mask = PixelMask.from_array(np.ones((8, 30), bool))
@@ -147,9 +148,9 @@ def stepped(steps):
 @pytest.mark.parametrize("scale", [2, 3])
 @pytest.mark.parametrize("layer", ["masks", "outlines"])
 def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
-    """Outlines are drawn at the pose of the last step at any scale.
+    """Outlines are drawn at the pose of the last step, at any scale and also between steps.
 
-    This holds between steps, too; sprites are drawn at the same pose then.
+    Between steps, the sprites are drawn at this pose, too.
     """
     scene = stepped(12)
     before = scene_digest(scene)

@@ -34,7 +34,7 @@ class Silent:
 
 @pytest.fixture
 def played():
-    """Yield a function played(name, source=None) that returns a Play of a scene; all are closed at the end.
+    """Yield played(name, source=None), a function that returns a Play of a scene. At the end all Plays are closed.
 
     source: source of input besides the devices, such as the bot.
     """

@@ -42,7 +42,10 @@ def inspector(session, world=None):
 
 
 def tables_of(world):
-    """Return the tables of a pause between stages as bytes, column by column, without the padding between columns."""
+    """Return the contents of all tables of a world that is paused between stages, a list of bytes and the digest.
+
+    Each entry has the bytes of one column, so that the padding between columns is left out.
+    """
     shown = [*photographed(world).values(), world.contacts, debug.contact_points(world), debug.bounds(world)]
     parts = [each[name] for each in shown for name in each.dtype.names or [...]]
     return [part.tobytes() for part in parts] + [world.digest()]

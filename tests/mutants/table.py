@@ -1,7 +1,7 @@
 """Thirty-six single-operator errors in the kernels, and the tests that detect each.
 
-The seed is 1 unless another one is given, because the change that 1 picks may be equivalent to the original
-(EQUIVALENT).
+The seed of a mutant is 1. If the change that seed 1 picks is equivalent to the original (EQUIVALENT), the mutant has
+another seed.
 """
 
 from dataclasses import dataclass

@@ -86,8 +86,9 @@ def connected(solid, diagonal):
 
 
 def lies_on_the_right_side(figure, solid, spare=0.0):
-    """Return whether a figure contains the centre of each solid pixel and of no other pixel,
-    within a tolerance [px].
+    """Return whether a figure contains the centres of all solid pixels and of no others.
+
+    spare: distance [px] by which the centre of another pixel may lie inside nevertheless.
     """
     rows, columns = np.mgrid[-1 : solid.shape[0] + 1, -1 : solid.shape[1] + 1] + 0.5
     shapely.prepare(figure)
@@ -98,10 +99,10 @@ def lies_on_the_right_side(figure, solid, spare=0.0):
 
 
 def gaps(figure, solid):
-    """Return the greatest distances (of the figure's boundary from the pixel edges, of the pixel edges from the
-    boundary).
+    """Return how far a figure deviates from the pixels, as two distances [px].
 
-    The boundary and the edges are sampled every 0.05 px.
+    The first is the greatest distance of its boundary from the pixel edges. The second is the greatest distance of the
+    pixel edges from its boundary. Boundary and edges are sampled every 0.05 px.
     """
     mine, edges = shapely.boundary(figure), pixels(solid).boundary
     return tuple(

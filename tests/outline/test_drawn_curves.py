@@ -26,9 +26,11 @@ def drawn(radius, center, hole=False):
 
 
 def normal_errors(corners, center, radius, ball, hole=False, count=360):
-    """Return the angles [degrees] between the normals of an outline where a ball touches it and those of the disc.
+    """Return the errors of an outline's normals [degrees] at the points where a ball touches it.
 
-    corners (n, 2): of the outline. The ball's centre is at `count` equal angles around the centre of the disc.
+    The normals are compared with those of the disc that was drawn. The ball's centre is at `count` equal angles around
+    the disc's centre. corners: corners of the outline (n, 2); center, radius: of the disc; ball: radius of the ball;
+    hole: True for a ball inside a disc-shaped hole.
     """
     angles = (np.arange(count) + 0.37) * math.tau / count
     out = np.stack([np.cos(angles), np.sin(angles)], axis=1)
@@ -71,7 +73,11 @@ def test_normals_along_drawn_arcs(radius, most, most_in_holes, hole):
 
 
 def bounce_errors(radius, center, ball, hole, seed):
-    """Return the angles [degrees] between the velocities of balls after an elastic bounce off a mask and off a disc."""
+    """Return the errors of the directions [degrees] in which balls fly after an elastic bounce off a mask.
+
+    The directions are compared with those after a bounce off an exact disc. radius, center: of the disc; ball: shape of
+    a ball; hole: True for balls inside a disc-shaped hole; seed: seed of the random numbers.
+    """
     rng = np.random.default_rng(seed)
     world = World(Effects.rigid_bodies().with_(sleeping=False), gravity=(0, 0))
     world.add_body(PixelMask(drawn(radius, center, hole), None), kind="static", material=ELASTIC)

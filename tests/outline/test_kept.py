@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def alone(monkeypatch):
-    """Empty the cache of outlines, so that it has only a test's own entries, and return its module."""
+    """Empty the cache of stored outlines, and return its module. Only the entries of the test are then in it."""
     monkeypatch.setattr(kept, "_kept", {})
     monkeypatch.setattr(kept, "_files", [])
     monkeypatch.setattr(kept, "recorded", {})
@@ -129,7 +129,7 @@ def test_a_file_whose_numbers_do_not_agree_holds_nothing(alone, tmp_path):
 
 
 def test_the_shipped_file_is_of_this_code_and_not_empty():
-    """The shipped file of outlines belongs to this code and is not empty.
+    """The shipped file of outlines was made with the present code and is not empty.
 
     Otherwise every start without compiled kernels would fit all outlines again: run python -m scenes.outlines.
     """

@@ -84,8 +84,9 @@ def test_stairs_are_as_straight_across_tiles_as_within_one(run, rise, shift):
 
 
 def deviation(figure, angle):
-    """Return the largest angle [rad] between a direction and the outline's sides in the middle
-    tile and at its border.
+    """Return the largest angle between a direction and the sides of an outline [rad].
+
+    Only the sides in the middle tile and at its border count. figure: the outline; angle: the direction [rad].
     """
     corners = shapely.get_coordinates(figure.simplify(1e-6).boundary)
     corners = corners[((corners >= 63) & (corners <= 129)).all(axis=1)]

@@ -120,7 +120,10 @@ def source_of(module: ModuleType) -> str:
 
 
 def sibling(name: str) -> str:
-    """Return a name with the ending replaced by "*" that distinguishes it from the names next to it."""
+    """Return the name of a column with "*" in place of its last part, such as "v*" for "vx".
+
+    The last part is the one in which the columns of a vector, a pose or a pair differ.
+    """
     return SIBLING.sub("*", name)
 
 

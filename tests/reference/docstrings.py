@@ -38,7 +38,10 @@ def named(names: str) -> list[str]:
 
 
 def entries(paragraph: list[str], known: set[str]) -> tuple[dict[str, str], list[str]]:
-    """Return ({argument: meaning} of a paragraph, lines that do not have the form). known: names of the arguments."""
+    """Return ({argument: meaning}, faults) of a paragraph.
+
+    faults: a message for each line that does not have the form. known: names of the arguments.
+    """
     found, faults, joined = {}, [], []
     for line in paragraph:
         if line.startswith(" ") and joined:
@@ -81,7 +84,7 @@ def described(documentation: str | None, known: set[str]) -> Described:
 
 
 def split_example(text: str | None) -> tuple[str | None, str]:
-    """Return (a docstring without its doctest, the doctest, "" if there is none)."""
+    """Return (docstring without its doctest, doctest). The doctest is "" if there is none."""
     paragraphs = (text or "").split("\n\n")
     shown = [each for each in paragraphs if each.startswith(">>> ")]
     if not shown:

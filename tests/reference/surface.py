@@ -242,9 +242,9 @@ def how_used(member: Any) -> str | None:
 
 
 def inherits_its_contract(kind: type, name: str, own: str, names: dict[type, str]) -> bool:
-    """Return whether a member without its own docstring overrides one of another public class.
+    """Return whether a member of a class is documented by another public class, whose member it overrides.
 
-    own: public name of the class itself.
+    Such a member has no docstring of its own. own: public name of the class itself.
     """
     if own_docstring(vars(kind).get(name)):
         return False

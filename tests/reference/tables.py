@@ -69,7 +69,10 @@ def effect_names() -> list[str]:
 
 
 def stages_of(name: str) -> list[str]:
-    """Return the stages that need an effect: they run only with it, or it is one of several effects that cause them."""
+    """Return the stages that need an effect.
+
+    A stage needs an effect if it runs only with it, or if the effect is one of several that cause the stage.
+    """
     found = []
     for solver in ("soft_step", "projection"):
         alone, none = called([name], solver), called([], solver)

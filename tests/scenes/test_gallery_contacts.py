@@ -15,9 +15,9 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps for 
 
 
 def both(name, build, steps):
-    """Step both sides of a page with another start; return (naive side, Hitbox side).
+    """Step both sides of a page from another start than the page's own. Return (naive side, Hitbox side).
 
-    name: name of the page. build: function that builds the start.
+    name: name of the page; build: function that builds the start; steps: number of steps.
     """
     page = replace(next(page for page in PAGES if page.name == name), build=build)
     sides = []
@@ -40,7 +40,7 @@ def both(name, build, steps):
 def test_a_gate_throws_a_crate_on_the_naive_side_alone(speed):
     """A gate throws a crate on the naive side only.
 
-    Two rounds of three gates, each at another phase of the step.
+    Three gates make two rounds. Each meets its crate at another phase of the step.
     """
     naive, ours = both("gate", lambda side: build_gates(side, speed), 2 * ROUND)
     limit = speed + PUSH_OUT + FALL
@@ -78,7 +78,7 @@ def test_a_slider_trips_at_a_seam_on_the_naive_side_alone(speed):
 def test_the_simulated_side_is_right_without_its_fault():
     """The naive integrator throws no crate if it removes only a fifth of the overlap in a step.
 
-    Its fault is therefore the share of the overlap.
+    Its fault is therefore that it removes too large a share.
     """
     from scenes.lab.gallery.simulated import step_naively
 

@@ -153,8 +153,9 @@ def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
 
 
 def price_all(lab, prices, spread):
-    """Give the lab run times for all effects. prices: {effect: cost [us]}; spread: median minus least time of each run
-    [us].
+    """Set made-up times of the runs with and without each effect in a lab.
+
+    prices: {effect: cost [us]}; spread: median minus least time of each run [us].
     """
     lab.looked = list(NAMES)
     for name in NAMES:

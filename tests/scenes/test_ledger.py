@@ -37,7 +37,10 @@ def scene_class(name):
 
 
 def pairs(declared, names):
-    """Return the pairs (scene, effect) with a declared effect, or with another one if `declared` is False."""
+    """Return the pairs (scene, effect) in which the scene declares the effect, or does not if `declared` is False.
+
+    names: names of the scenes.
+    """
     return [
         pytest.param(name, effect, marks=needs_speed if (name, effect) in SLOW else ())
         for name in names
@@ -48,7 +51,7 @@ def pairs(declared, names):
 
 @pytest.mark.parametrize("name, effect", pairs(True, LABS))
 def test_a_lab_declares_only_what_would_be_missed(name, effect):
-    """Without any of its declared effects, a lab's bodies or events change, or it cannot be built or played."""
+    """If one of a lab's declared effects is removed, its bodies or events change, or it cannot be built or played."""
     found = entry(scene_class(name), effect, LONGEST.get(name, FRAMES), after=0)
     assert found.matters, f"{name} declares {effect} and does not call for it: {found}"
     if found.refused:
@@ -171,8 +174,9 @@ def test_an_idle_effect_changes_nothing(effect):
 
 
 def test_an_effect_that_is_not_idle_does():
-    """An added effect changes the scene if the bodies' values use it: friction and rotation
-    with the ball's material.
+    """An added effect changes the scene if the bodies have values that it uses.
+
+    The ball's material has friction. With friction, the effect of rotation changes the scene, too.
     """
     rubs = variant(Drop, Drop.effects.with_(friction=True))
     assert entry(rubs, "friction", 90).matters and set(NEUTRAL) <= set(EFFECTS)

@@ -81,7 +81,8 @@ def played_and_replayed(name, frames, path):
 def test_one_digest_however_it_is_run_for_half_a_second(name, tmp_path):
     """A scene has the same digests played and replayed for half a second.
 
-    This test covers every scene in the README's command, so it is never on a list of slow tests (tests/slow.py, NEVER).
+    The README's command for the tests must cover every scene, so this test is never on a list of slow tests
+    (tests/slow.py, NEVER).
     """
     played_and_replayed(name, SHORT_FRAMES, tmp_path / "recording.json")
 
@@ -129,7 +130,10 @@ def test_restart_goes_back_to_the_start(name):
 
 
 def changed(name, changes):
-    """Return two runs of the scene with settings changed mid-game: under its own broad phase, and comparing all."""
+    """Return two runs of a scene whose settings are changed during the game.
+
+    One uses the scene's own broad phase, the other compares all broad phases. changes: as in Changing.
+    """
     return [
         Run(f"changed{label}", make_scene(name, True, asks_all=asks_all), Changing(changes))
         for label, asks_all in (("", False), (" and asking all broad phases", True))

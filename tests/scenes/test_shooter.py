@@ -30,16 +30,16 @@ HULL_HURTS = (("slider:hurts", 1),)
 
 
 def hull_sky(**chosen):
-    """Return a sky in which hits of the plane's hull count, not only those of its core."""
+    """Return a sky in which a hit anywhere on the plane's hull counts, not only one on the small core of the plane."""
     sky = Sky(**chosen)
     sky.step(1, changes=HULL_HURTS)
     return sky
 
 
 def offsets(shares):
-    """Return the offset (dx, dy) of a dart from the plane at which their boxes overlap most.
+    """Return the offset (dx, dy) of a dart from the plane at which their boxes overlap most [px].
 
-    shares: True requires shared pixels, False none.
+    shares: whether the two masks must share pixels at this offset, or must share none.
     """
     planes = load_atlas("planes")
     mine, other = planes.mask("player"), planes.mask("dart_0")

@@ -43,7 +43,7 @@ def test_a_scene_covers_none_of_its_own_texts(name):
 
 
 def begin(scene, mode):
-    """Put a shooter into a mode of its stage or of its end, with the largest numbers on the screen."""
+    """Put a shooter into a mode such as "warning" or "bonus", with the largest numbers on the screen."""
     scene.score.points, scene.score.chain, scene.score.best_chain, scene.score.grazes = 12_345_670, 999, 999, 9999
     scene.score.kills[next(iter(scene.score.kills))] = 999
     scene.plane.power = scene.plane.bombs = scene.plane.lives = 5

@@ -100,9 +100,10 @@ def test_no_scene_is_changed_to_another_solver_of_joints_and_none_is_advised():
 
 
 def surveyed(settings, survey=None):
-    """Return a survey of settings with increasing cost, in which the direct joint solver has small gaps.
+    """Return a survey of settings with made-up costs and gaps.
 
-    survey: survey to fill; None for a new one.
+    Each setting costs more than the one before. Gaps are small with the direct joint solver only. survey: survey to
+    fill; None for a new one.
     """
     survey = survey or Survey()
     survey.kinds, survey.planned, survey.moments = ("overlap", "way", "joints"), len(settings), 1

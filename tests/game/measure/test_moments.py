@@ -1,4 +1,4 @@
-"""Measurements of a moment of a world: settings, paths and errors, made in a separate process and directly."""
+"""Measurements of one moment of a world: settings, paths and errors, in a separate process and in that of the test."""
 
 import gc
 import json

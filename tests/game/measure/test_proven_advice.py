@@ -105,7 +105,8 @@ def test_an_advice_holds_only_if_every_repetition_and_the_slowest_steps_agree(me
 def test_an_advice_that_the_whole_run_refutes_is_withdrawn(monkeypatch, factor, holds):
     """Advice that the whole run refutes is withdrawn.
 
-    At the measured moments the tree takes half the time; over the whole run it takes `factor` times the time.
+    The times are made up. At the measured moments, the tree halves the time of a step. Over the whole run it takes
+    `factor` times as long as the scene's own broad phase. holds: whether the advice is kept.
     """
     monkeypatch.setattr(Moment, "time_run", lambda self, setting, *more: 5e-4 if setting.broadphase == "tree" else 1e-3)
     monkeypatch.setattr(

@@ -32,8 +32,10 @@ def slow_verdict(bodies, filters, tier):
 
 @pytest.fixture(scope="module")
 def asked():
-    """Return (reference tier, {tier: (hits, wrong, missed)} counted by tests of every pair) after some moments of the
-    shooter.
+    """Return (reference, {tier: (hits, wrong, missed)}) after some moments of the shooter.
+
+    reference: the ReferenceTier that counted at these moments. The numbers in the dict come from tests of every pair at
+    the same moments.
     """
     scene = make_scene("shooter")
     session, reference = Session(scene, BotSource()), ReferenceTier("aabb")

@@ -1,7 +1,7 @@
 """Error rates that have closed forms, measured by the same code that measures sprites.
 
-The rates are ratios of areas: the sets of relative positions at which two shapes touch are Minkowski sums. For rotated
-shapes the kinematic formula of integral geometry gives A + B + P Q / 2 pi (Santalo 1976).
+A rate is a ratio of two areas. Each is the area of the relative positions at which two shapes touch, a Minkowski sum.
+For rotated shapes the kinematic formula of integral geometry gives A + B + P Q / 2 pi (Santalo 1976).
 """
 
 from math import cos, hypot, pi, sin

@@ -115,7 +115,7 @@ def test_the_answer_is_what_the_rows_say():
 
 
 def test_nothing_is_wider_than_a_phone():
-    """No element of the page is wider than a phone of 400 px, less the margins 356 px.
+    """No element of the page is wider than 356 px, which is the width of a phone (400 px) without its margins.
 
     No fixed width is larger, words break, and wide tables scroll by themselves.
     """
