@@ -118,7 +118,8 @@ def tone_pitch(at, index, floor):
 def scale_over(key, at):
     """Return the pitch classes of `key` adapted to the chord `at`, a frozenset.
 
-    Chord tones that are not in the key replace the key's pitch classes a semitone away.
+    It contains all tones of the chord. For a chord tone that is not in the key, the key's pitch classes a semitone away
+    are left out, unless they are chord tones.
     """
     foreign = at.classes - key
     bent = {tone for tone in key if tone in at.classes or all((tone - other) % 12 not in (1, 11) for other in foreign)}

@@ -6,9 +6,9 @@ import numpy as np
 def read_parts(text, letters, source):
     """Return {name: picture} of every part of a drawing; a picture is an array (h, w, 4) uint8.
 
-    letters: {letter: (r, g, b)}; "." is clear. Raises ValueError for an unknown letter, an uneven row, a name used
-    twice or a part without rows. The message contains `source`, which is the name of the drawing, the part and the
-    row.
+    letters: {letter: (r, g, b)}; "." is clear. source: name of the drawing, for errors. Raises ValueError for an
+    unknown letter, an uneven row, a name used twice or a part without rows. The message names the drawing, the part and
+    the row.
     """
     parts, rows, name = {}, [], None
     for line in text.splitlines() + ["= "]:

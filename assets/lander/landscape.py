@@ -90,10 +90,10 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Change only the part of a mask near some points: call change(solid, x, y) with this part of the three arrays.
+    """Call change(solid, x, y) with the part of these three arrays that is near some points.
 
-    points: list of (x, y) [px]. The part is their bounding box, enlarged by `reach` [px]. change: function that
-    changes the mask in place; solid (h, w) bool: the mask; x, y (h, w): positions of its pixels.
+    solid (h, w) bool: a mask; x, y (h, w): positions of its pixels; points: list of (x, y) [px]; change: function that
+    changes a mask in place. The part is the bounding box of the points, enlarged by `reach` [px] on each side.
     """
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -117,7 +117,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return `pixels` extended by copies of itself, shifted by `far` px in each direction (dx, dy) of `ways`.
+    """Return the union of a mask and its copies that are shifted by `far` px in each direction (dx, dy) of `ways`.
 
     pixels: mask (h, w) bool; the result has the same shape.
     """
@@ -146,7 +146,7 @@ def _crack(rock, ice):
 
 
 def _hanging(rock):
-    """Return a mask of hanging rock, from which no path through rock leads to the lower edge of the picture."""
+    """Return a mask of the rock that hangs: it is not connected through rock with the lower edge of the picture."""
     surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
     pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
     found = np.zeros_like(rock)

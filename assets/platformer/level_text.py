@@ -111,7 +111,10 @@ def _hint(line, source):
 
 
 class Filled:
-    """A level whose covered rooms are filled. A filled tile has the letter of the nearest tile above its room."""
+    """A level in which covered rooms are filled up, so that no room is visible.
+
+    A filled tile has the letter of the nearest tile above its room.
+    """
 
     def __init__(self, level, rooms):
         self.level, self.rooms = level, rooms

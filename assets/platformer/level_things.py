@@ -115,10 +115,10 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """Return the distance [px] that a walker who starts at a tile may walk to either side, at most `most` tiles.
+    """Return the distance [px] that a walking enemy may walk from its first tile, to the left and to the right.
 
-    The ground must be level and free over this distance on both sides. On a platform, the walker must stay on the
-    platform. level: the level, a level_text.Map; x, y: the tile.
+    The ground must be level and free over this distance on both sides. On a platform, the enemy must stay on the
+    platform. level: the level, a level_text.Map; x, y: the first tile; most: greatest distance in tiles.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):
@@ -131,10 +131,9 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the tile (column, row) with the letter of the platform that covers the tile (x, y), or None if there is
-    none.
+    """Return the first tile (column, row) of the platform that covers the tile (x, y), or None without a platform.
 
-    level: the level, a level_text.Map.
+    The first tile is the one with the letter of the platform. level: the level, a level_text.Map.
     """
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:

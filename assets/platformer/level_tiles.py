@@ -1,5 +1,6 @@
-"""Choice of the pictures for a level's tiles: the letter determines the material, its neighbours determine the
-picture.
+"""Choice of the pictures for a level's tiles.
+
+The letter of a tile determines its material. The neighbouring tiles determine which picture of the material it has.
 """
 
 from assets.platformer.decoration import SCENERY
@@ -72,9 +73,9 @@ def solid_name(level, x, y):
 
 
 def cover_names(level):
-    """Return {(x, y): tile name} of the layer that covers hidden rooms and the walls around them with ground.
+    """Return {(x, y): tile name} of the layer "cover", which hides rooms as if they were filled.
 
-    level: the level, a level_text.Map.
+    It covers the hidden rooms and the solid tiles around them. level: the level, a level_text.Map.
     """
     rooms = level.rooms
     if not rooms:

@@ -12,9 +12,9 @@ POST = 3  # [px] width of a post, outlines included
 
 
 def tops():
-    """Return the distance of the boards' upper side below the bridge's ends, for each column: (128,) integers [px].
+    """Return how far the bridge sags in each column: 128 distances of the boards' top below the bridge's ends [px].
 
-    The values follow a parabola.
+    They are integers and follow a parabola.
     """
     across = (np.arange(WIDTH) + 0.5) / WIDTH
     return np.floor(4.0 * SAG * across * (1.0 - across) + 0.5).astype(int)

@@ -106,7 +106,7 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Draw the side of a belt piece at which the next piece follows: the outline is only above and below the belt.
+    """Draw the side of a belt piece that is joined to the next piece: its outline is only above and below the belt.
 
     column: column of the picture at this side.
     """

@@ -45,10 +45,10 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Return a mask of neighbours without the corners that do not count: those at which a side is missing.
+    """Return a mask of neighbours without the corners that do not count.
 
-    A corner lies between two sides, for example NE between N and E. mask: sum of the bits N, NE, E ... of the
-    neighbours that are present.
+    A corner lies between two sides, for example NE between N and E. It counts only if both sides are present. mask: sum
+    of the bits N, NE, E ... of the neighbours that are present.
     """
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
@@ -62,7 +62,7 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 def texture(material, variant=0):
     """Return the picture of the inside of a material, (16, 16, 3) uint8: plain, with a few clods, stones or cracks.
 
-    material: key of MATERIALS; variant: 0..3; all variants fit together.
+    material: key of MATERIALS; variant: 0..3. Tiles of all variants can be placed side by side.
     """
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
@@ -191,10 +191,10 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """Draw the corner of a tile whose diagonal neighbour is missing: its outline, and the end of the neighbour's
-    grass.
+    """Draw the corner at which a tile has both side neighbours, but not the diagonal one, into `picture`.
 
-    corner: NE, SE, SW or NW; cap: colours of the top; grass: whether the material is ground.
+    It consists of the outline and, for ground, the end of the grass beside it. corner: NE, SE, SW or NW; cap: colours
+    of the top; grass: whether the material is ground.
     """
     column = 0 if corner in (NW, SW) else 15
     row = 0 if corner in (NW, NE) else 15
@@ -301,9 +301,10 @@ def ladder(top):
 
 
 def material_tiles(material):
-    """Return {name: (pixels, properties)} of the tiles of one material.
+    """Return the tiles of one material, {name: (pixels, properties)}.
 
-    There is a tile for every mask of neighbours, and then the variants of the material's inside.
+    First comes one tile for each combination of solid neighbours, named <material>_<mask>. Then come more variants of
+    the tile with all eight neighbours. material: key of MATERIALS; properties: as in tile_table().
     """
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
     for variant in range(1, DEPTHS):

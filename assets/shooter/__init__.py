@@ -1,1 +1,1 @@
-"""Pictures of the shooter: the sheets "planes" and "effects", and the grounds."""
+"""Pictures of the shooter: the sheets "planes" and "effects", and the backgrounds."""

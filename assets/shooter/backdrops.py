@@ -1,7 +1,7 @@
 """Background pictures of the shooter, 480 x 540 px, which scroll downwards and are seamless in both directions.
 
-The grounds are sea, coast and storm. The cloud layers clouds_low, clouds_high and clouds_storm and the layer
-cloud_shadows are drawn above the grounds.
+The backgrounds are sea, coast and storm. The cloud layers clouds_low, clouds_high and clouds_storm and the layer
+cloud_shadows are drawn above them.
 """
 
 from assets.craft import png
@@ -15,7 +15,7 @@ LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70
 
 
 def backdrop_files():
-    """Return {path relative to assets/: bytes} of the pictures of all grounds, clouds and shadows."""
+    """Return {path relative to assets/: bytes} of the pictures of all backgrounds, clouds and shadows."""
     low = from_above(901, 0.62, LOW_ALPHA, 5, 5)
     layers = {
         "sea": ground(),

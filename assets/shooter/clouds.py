@@ -1,4 +1,4 @@
-"""Clouds above the shooter's grounds, and their shadows: seamless noise above a threshold, in four tones."""
+"""Clouds above the shooter's backgrounds, and their shadows: seamless noise above a threshold, in four tones."""
 
 import numpy as np
 

@@ -1,6 +1,7 @@
-"""The shooter's second ground: a coast with woods, fields, a river, roads and villages, 480 x 540 px, seamless.
+"""The shooter's second background: a coast with woods, fields, a river, roads and villages, 480 x 540 px.
 
-Like the sea (terrain.py) it has at most 60 % lightness and muted colours, so that bullets stand out from it.
+It is seamless. Like the sea (terrain.py) it has at most 60 % lightness and muted colours, so that bullets stand out
+from it.
 """
 
 import numpy as np

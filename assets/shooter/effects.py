@@ -105,7 +105,10 @@ def debris(kind):
 
 
 def hitbox_dot():
-    """Return the picture of the dot that marks the plane's core while the player flies slowly, 9 x 9 px."""
+    """Return the picture of a dot, 9 x 9 px, that marks the core of the plane while the player flies slowly.
+
+    The core is the small centre of the plane. By default only hits of the core cost a life.
+    """
     sprite = Sprite(9, 9)
     distance = length(sprite.x - 4.5, sprite.y - 4.5)
     sprite.flat(distance - 4.2, RAMPS["red"][1]).flat(distance - 3.2, RAMPS["pink"][4]).flat(distance - 2.1, WHITE)

@@ -1,8 +1,8 @@
-"""Enemy bullets: a dark ring, a saturated ring and a white core, so that a bullet stands out on any ground.
+"""Enemy bullets: a dark ring, a saturated ring and a white centre, so that a bullet stands out on any background.
 
 Each kind has two sets of pictures with the same silhouette: NAME, and safe_NAME in colours of the Okabe-Ito set, which
-are distinct under colour blindness. The cores of the safe set also differ in shape. A round bullet has two frames,
-between which it pulses.
+are distinct under colour blindness. The white centres of the safe set also differ in shape. A round bullet has two
+frames, between which it pulses.
 """
 
 import numpy as np

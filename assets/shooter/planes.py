@@ -1,4 +1,7 @@
-"""The player's plane, seen from above and flying up: one level and four banking frames, its exhaust and its core."""
+"""The player's plane, seen from above and flying up: one level and four banking frames, its exhaust and its core.
+
+The core is the small centre of the plane. By default only hits of the core cost a life.
+"""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -103,8 +106,9 @@ def exhaust(frame):
 
 
 def marked_core(frame):
-    """Return the picture that marks the player's core, 6 x 6 px: a jewel in a dark frame. frame: 0..1, 1
-    is brighter.
+    """Return the picture that marks the core of the player's plane, 6 x 6 px: a jewel in a dark frame.
+
+    frame: 0..1, 1 is brighter.
     """
     rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
     tones = {

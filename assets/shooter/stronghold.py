@@ -1,7 +1,7 @@
-"""The shooter's last ground: a fortress of concrete and steel on black rocks in a night sea, 480 x 540 px, seamless.
+"""The shooter's last background: a fortress of concrete and steel on black rocks in a night sea, 480 x 540 px.
 
-It is darker than the other grounds, so that the boss's bullets are more visible. Landing pads, buildings and tanks are
-placed at random on the paving, with a fixed seed.
+It is seamless, and darker than the other backgrounds, so that the boss's bullets are more visible. Landing pads,
+buildings and tanks are placed at random on the paving, with a fixed seed.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The shooter's first ground: a sea with islands seen from above, 480 x 540 px, seamless in both directions.
+"""The shooter's first background: a sea with islands, seen from above, 480 x 540 px, seamless in both directions.
 
 Everything has at most 60 % lightness and low chroma, so that bullets, planes and explosions stand out from it.
 """
