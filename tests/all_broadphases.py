@@ -1,7 +1,7 @@
-"""Broad phases that run the other three in every update and every query, and compare the results of all four.
+"""Variants of the four broad phases that also run the other three in every update and query, and compare all results.
 
 A broad phase affects a world only through the pairs it finds. If all four find equal pairs in every step, all four give
-equal digests. One run with these broad phases therefore replaces four runs, and it names the wrong pair.
+equal digests. One run with such a variant therefore replaces four runs, and it names the wrong pair.
 """
 
 import numpy as np
@@ -77,9 +77,10 @@ class AsksAll:
 
 
 def meeting(proxies, box, slots):
-    """Return the sorted slots that every broad phase must find: those up to date whose box overlaps `box`.
+    """Return the slots that every broad phase must find, sorted: those whose box is up to date and overlaps `box`.
 
-    A broad phase may find more, because leaves of the tree are enlarged and cells are large; queries drop these.
+    A broad phase may report more slots, because leaves of the tree are enlarged and cells are large. They are ignored
+    here, as queries ignore them.
     """
     rows = proxies[slots]
     meets = (rows["lower_x"] <= box[2]) & (rows["upper_x"] >= box[0])

@@ -1,8 +1,8 @@
 """Comparison of the two forms of each kernel call: the compiled form, and the plain form on copies of the arguments.
 
-A player runs both forms, so both must return the same values and write the same bytes. Floats are compared by their
-bits, except that any NaN equals any NaN. Sign and payload of a NaN depend on the order of operands, which the compiler
-chooses, and the physics does not read them.
+A game runs the plain form until the compiled one is ready, so both must return the same values and write the same
+bytes. Floats are compared by their bits, except that any NaN equals any NaN. Sign and payload of a NaN depend on the
+order of operands, which the compiler chooses, and the physics does not read them.
 """
 
 import ctypes

@@ -159,7 +159,8 @@ def crater():
 def sinks():
     """Return two phrases on overlaps.
 
-    The first is on a heavy body on a light one with substeps by load, the second on a high column with four substeps.
+    The first is about a heavy body on a light one, with substeps by load. The second is about a high column, with four
+    substeps.
     """
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])

@@ -302,7 +302,7 @@ end_all([child])
 def test_a_child_does_not_pick_up_what_lies_in_the_current_folder(staged):
     """A child process imports modules of the package, not modules of the same names in the current folder.
 
-    The user's modules would print a line and have OWN.
+    The latter belong to the user, and have an attribute OWN.
     """
     assert json.loads(run(staged, "-c", CHILD % "hitbox.physics:World.step.__name__.upper"))["rows"] == "STEP"
     for own in ("physics", "game"):
@@ -315,7 +315,7 @@ def test_a_child_does_not_pick_up_what_lies_in_the_current_folder(staged):
 def test_the_path_of_a_child(monkeypatch, tmp_path, given, installed):
     """The search path of a child process has the checkout first, then the paths in the user's PYTHONPATH.
 
-    An installed package needs none, because site-packages follows the standard library by itself.
+    For an installed package the path is not changed, because it contains site-packages by itself.
     """
     monkeypatch.setattr(workers.site, "getsitepackages", lambda: [str(tmp_path)])
     monkeypatch.setattr(workers, "IMPORTED_FROM", tmp_path.resolve() if installed else ROOT)

@@ -163,8 +163,8 @@ def _level(samples):
 def music_files(name):
     """Return the two files of one tune, {path relative to assets/: content}.
 
-    They are its Recording, and a JSON file with the hash of its samples. Raises ValueError if a note does not fit its
-    chord.
+    The content of the music file is a Recording. The other file is JSON with the hash of the samples. Raises ValueError
+    if a note does not fit its chord.
     """
     tune = tune_of(name)
     wrong = complaints(tune)

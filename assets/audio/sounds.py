@@ -86,7 +86,7 @@ def land():
 
 
 def stomp():
-    """Return the sound of a walker that is jumped on: a short, dull fall."""
+    """Return the sound of an enemy on whose head the hero jumps: a short, dull fall."""
     body = voice("triangle", 360, 90, envelope(0.001, 0.03, 0.12, 0.2))
     puff = voice("noise", 80, 30, envelope(0, 0.010, 0.09), seed=43)
     return low_pass(mixed((0, 1.0, body), (0, 0.5, puff)), 4_500, 1_500)

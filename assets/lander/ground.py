@@ -86,7 +86,7 @@ def depths(solid):
 
 
 def facings(solid, reach=4):
-    """Return (light, up), two arrays -1..1: how far the ground at each pixel faces the light, and upwards.
+    """Return (light, up), two arrays -1..1: how directly the ground at each pixel faces the light, and faces upwards.
 
     They are computed from the slope of `solid` (h, w) bool, blurred by `reach` px.
     """

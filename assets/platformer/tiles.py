@@ -141,7 +141,7 @@ def blob(material, mask, variant=0):
     """Return the picture of one tile of a material, (16, 16, 4) uint8, opaque.
 
     It has edges and corners where a neighbour is missing. material: key of MATERIALS; mask: sum of the bits N, NE, E
-    ... of the solid neighbours; variant: 0..3, number of the inside's picture.
+    ... of the solid neighbours; variant: 0..3, as in texture().
     """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)

@@ -1,6 +1,7 @@
-"""The player's strong weapons: the bomb's shock ring, the shot of full power, and the spark of a grazing bullet.
+"""The bomb's shock ring, the player's shot of full power, and the spark of an enemy bullet that just missed.
 
-The ring is blended normally, not added: a thin bright front, and behind it a broken wake that cools from teal to blue.
+The ring is drawn by alpha blending, not by adding its colours: a thin bright front, and behind it a broken wake that
+cools from teal to blue.
 """
 
 import numpy as np

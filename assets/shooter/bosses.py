@@ -1,8 +1,8 @@
 """The shooter's two bosses, which face down: the heavy bomber halfway through the stage, and the fortress at the end.
 
 The fortress has three looks: whole with its eye half shut, with torn armour, and burning with one wing tip missing.
-Each look has two frames, which differ in the glow of engines and eye. Both have the same silhouette, so that one mask
-serves both.
+Each look has two frames, which differ in the glow of engines and eye. The two frames have the same silhouette and
+therefore share one mask.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon

@@ -136,7 +136,7 @@ def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
 
 
 def tiers() -> Iterator[Point]:
-    """Yield the rates of false hits of three tiers, each for another sprite (chart 1)."""
+    """Yield the rates of false hits of three tiers (chart 1). Each tier is tested with another sprite."""
     for tier, sprite in zip(("circle", "aabb", "hull"), SPRITES, strict=True):
         wrong, hits = row("tiers", series=tier, sprite=sprite, panel="poses all around")["wrong"]
         mine = interval(*false_hits(sprite)[tier])

@@ -61,9 +61,9 @@ def make_world(strategy, layout, n, moving):
 
 
 def step_time(world):
-    """Return the mean time of the broad phase over some steps [s].
+    """Return the mean time of the broad phase in a step [s].
 
-    It is a mean because moving bodies are searched for once in several steps.
+    It is a mean over several steps, because the broad phase does not search for moving bodies in each of them.
     """
     spent = 0.0
     for _ in range(STEPS):

@@ -1,8 +1,8 @@
 """2,000 sprites of 24 to 64 px: pygame's mask collision methods and Hitbox in one run; equal hits are asserted.
 
 All sprites move about a pixel per frame and turn back at the border, so the density stays the same. The time of Hitbox
-is that of a whole step: motion, broad phase, masks, contacts and events. It is a mean over many steps, because boxes
-are searched for once in several steps.
+is that of a whole step: motion, broad phase, masks, contacts and events. It is a mean over many steps, because the
+broad phase does not search for pairs in each of them.
 """
 
 from functools import partial

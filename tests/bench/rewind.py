@@ -1,9 +1,10 @@
 """`python -m tests.bench.rewind [SCENE …] [--cpu]`: memory and time of ten seconds of rewind for each scene.
 
-The memory is that of all stored data: the total, and the part beyond 64 kB per moving body and frame. The times are
-those of the slowest and the mean seek. Each seek goes from the end to the last step before a key frame, which takes the
-most steps, and then to the step before it. --cpu measures processor seconds of this process instead of clock seconds,
-for a machine with other load; rewind itself then measures in the same way.
+It prints the total memory of the stored data. The memory beyond 64 kB is also divided by the numbers of moving bodies
+and frames. The times are those of the slowest and the mean seek. For each key frame one seek goes from the end to the
+last step before the key frame, which takes the most steps, and one to the step before that. --cpu measures processor
+seconds of this process instead of clock seconds, for a machine with other load; rewind itself then measures in the
+same way.
 """
 
 import argparse

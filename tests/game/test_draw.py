@@ -52,8 +52,9 @@ def test_rounding_is_half_up_on_both_sides_of_zero():
 )
 @pytest.mark.parametrize("docked", [False, True])
 def test_presenter_scales_and_maps_back(size, docked):
-    """The presenter scales by an integer, or beside a panel by the space that the panel leaves, and maps positions
-    back.
+    """The presenter scales the canvas by an integer, or beside a panel to the space that is left.
+
+    Positions in the window are mapped back to the canvas.
     """
     presenter = Presenter(pygame.Surface(size))
     presenter.docked = docked

@@ -27,8 +27,9 @@ AREA = 0.25  # of the picture
 
 
 def squares(surface):
-    """Return the luminance of each square block of a canvas, from its mean colour, which is ten times as fast as all
-    pixels.
+    """Return the luminance of each square block of a canvas.
+
+    It is computed from the mean colour of a block, which is ten times as fast as from all its pixels.
     """
     width, height = surface.get_size()
     return luminance(pygame.surfarray.array3d(pygame.transform.smoothscale(surface, (width // BLOCK, height // BLOCK))))

@@ -78,9 +78,9 @@ def sources_in(folder):
 
 
 def find_kernel(folder, name):
-    """Return (path, source, node) of the kernel `name`, or "module.name" if several modules have one of that name.
+    """Return (path, source, node) of a kernel. Raises LookupError unless there is exactly one with this name.
 
-    Raises LookupError unless there is exactly one.
+    name: the kernel's name, or "module.name" if several modules have a kernel of this name.
     """
     found = []
     module, _, name = name.rpartition(".")

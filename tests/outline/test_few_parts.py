@@ -32,9 +32,9 @@ def test_two_hundred_polygons_beside_published_counts():
 
 
 def test_quick_parts_of_sprites_are_few():
-    """The fast partition of sprites has at most about one part in six more than the best one.
+    """The fast partition of sprites has at most 18 % more parts than the best one.
 
-    It makes cuts also where a side would be inner only for a part of its length.
+    The reason is that it also cuts where a side would be inner only for a part of its length.
     """
     quick = best = theirs = 0
     for _, solid in sprites():

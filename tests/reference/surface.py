@@ -233,7 +233,7 @@ def own_attributes(base: type) -> frozenset[str]:
 
 
 def how_used(member: Any) -> str | None:
-    """Return how a member of a class is used ("property", "method", ...), or None for an attribute."""
+    """Return how a member of a class is used: "property", "method" or "class method". None stands for an attribute."""
     if isinstance(member, property | functools.cached_property):
         return "property"
     if isinstance(member, classmethod):

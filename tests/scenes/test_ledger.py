@@ -1,7 +1,7 @@
-"""The effects of all scenes: each declared one matters, and each other one, added with neutral values, changes no
-digest.
+"""Effects of all scenes: each declared effect matters, and no other effect changes a digest when it is added.
 
-A failing test is a finding: remove the effect from the scene's declaration, or add a reason for it.
+Effects are added with neutral values. A failing test is a finding: remove the effect from the scene's declaration, or
+add a reason for it.
 """
 
 import math

@@ -107,9 +107,10 @@ print(json.dumps([len(chosen), totals.compiled, totals.loaded]))
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("name", SCENES)
 def test_a_second_process_compiles_nothing(name):
-    """A second process compiles nothing, with every solver, tier and broad phase that the scene offers.
+    """After one process has compiled the kernels, a second one compiles nothing.
 
-    Two hash seeds are used, because the order of sets must not matter.
+    Both use every solver, tier and broad phase that the scene offers. They have different hash seeds, because the order
+    of sets must not matter.
     """
     found = []
     for seed in ("3", "4"):
@@ -129,7 +130,7 @@ def test_a_second_process_compiles_nothing(name):
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 @pytest.mark.parametrize("command", [["main.py", "--report", "FOLDER", "--quick"], ["-m", "tests.bench", "--quick"]])
 def test_a_second_report_and_a_second_benchmark_compile_nothing(command, tmp_path):
-    """A second report and a second benchmark compile nothing in any of their processes: the cache is unchanged."""
+    """A report or a benchmark that runs a second time compiles nothing in any process: the cache is unchanged."""
     from physics.jit.store import store
 
     pytest.importorskip("pymunk")  # both run it beside the physics

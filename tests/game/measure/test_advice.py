@@ -1,4 +1,4 @@
-"""Advice uses measured settings only, only those within the error, and only if it is certain."""
+"""Advice names only settings that were measured and whose error is small enough, and is given only if it is certain."""
 
 import json
 

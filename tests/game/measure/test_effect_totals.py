@@ -1,5 +1,5 @@
-"""A scene's effects compared with all effects and the fewest: time, kernels, start, bytes, and
-the bars that show them.
+"""A scene's effects compared with all effects and with the fewest: time, kernels, start, bytes, and the bars that show
+them.
 """
 
 import json

@@ -16,7 +16,10 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of a 
 
 
 def slow_verdict(bodies, filters, tier):
-    """Return the set of id pairs that collide at a tier, by a test of every pair. filters: {id: (category, mask)}."""
+    """Return the set of id pairs that collide at a tier. Every pair is tested.
+
+    filters: {id: (category, mask)}.
+    """
     shapes = {body.id: fit(body.shapes[0], tier) if body.tier else body.shapes for body in bodies}
     met = set()
     for a, b in combinations(bodies, 2):
