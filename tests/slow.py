@@ -99,10 +99,10 @@ def refreshed(kept: dict[str, float], measured: dict[str, float], more: bool = F
 
 
 def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> list[str]:
-    """Return the names on the list that are no test.
+    """Return the names on the list that belong to no test.
 
-    Their file is missing, or pytest collected the whole file without them. parts: files of which only some tests were
-    collected.
+    The file of such a name is missing, or pytest collected the whole file without finding the name. parts: files of
+    which only some tests were collected.
     """
     there = set(collected)
     whole = {name.split("::")[0] for name in collected} - parts

@@ -266,8 +266,8 @@ def crowd(count, moving):
 class Scene(NamedTuple):
     """A scene that each engine can run.
 
-    steps: number of steps to measure; build: function that returns a run, and is called with a function `make` of one
-    engine. make(items, ...) returns a run with these items.
+    steps: number of steps to measure; build: function of one argument, `make`, that returns a run. `make` belongs to an
+    engine: make(items, ...) returns a run with these items in this engine.
     """
 
     steps: int

@@ -93,7 +93,7 @@ class Sky:
 
 
 def struck_down(kind="gunship", x=240.0, y=90.0, power=0.1, **chosen):
-    """Return (sky, plane): a sky in which the plane was just shot down. power: the plane's health."""
+    """Return (sky, plane): a `Sky` and an enemy plane that was just shot down. power: the enemy's health."""
     sky = Sky(**chosen)
     plane = sky.enemy(kind, x, y)
     plane.health = power

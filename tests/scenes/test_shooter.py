@@ -30,7 +30,7 @@ HULL_HURTS = (("slider:hurts", 1),)
 
 
 def hull_sky(**chosen):
-    """Return a sky in which hits anywhere on the plane's hull count, not only those on its small core."""
+    """Return a `Sky` in which hits anywhere on the plane's hull count, not only those on its small core."""
     sky = Sky(**chosen)
     sky.step(1, changes=HULL_HURTS)
     return sky

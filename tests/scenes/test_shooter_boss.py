@@ -20,7 +20,7 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="takes too long without
 
 
 def boss_sky(path):
-    """Return a sky of a boss stage at the start of the fight; the plane is invincible."""
+    """Return a `Sky` with a boss stage, at the start of the fight; the plane is invincible."""
     sky = Sky(quiet=False, level=path)
     sky.step(1, changes=[("assist:invincible", True)])
     sky.until(lambda: sky.scene.fleet.leader is not None and sky.scene.fleet.leader.mode == "fight", 900)

@@ -14,7 +14,7 @@ from tests.scenes.shooter_stages import Sky, boss_stage
 
 
 def lose_all(sky):
-    """Lose all lives, until the countdown is shown."""
+    """Let the player lose all lives, until the countdown is shown. sky: the `Sky` to play."""
 
     def step():
         scene = sky.scene

@@ -25,7 +25,7 @@ SHOT = {
 
 
 def flights(sky):
-    """Return (heading [deg], speed [px/s]) of the enemy's bullets, in the order they were fired."""
+    """Return [(heading [deg], speed [px/s])] of the enemy's bullets, in the order in which they were fired."""
     rows = sky.scene.world.bodies[sky.scene.incoming.places()]
     return [
         (degrees(atan2(vy, vx)), hypot(vx, vy)) for vx, vy in zip(rows["vx"].tolist(), rows["vy"].tolist(), strict=True)
@@ -33,7 +33,7 @@ def flights(sky):
 
 
 def fired(kind, x, y, steps, **group):
-    """Return (sky, plane): a sky in which a plane of a kind has acted for some steps."""
+    """Return (sky, plane): a `Sky` in which a plane of a kind has acted for some steps."""
     sky = Sky()
     plane = sky.enemy(kind, x, y, thinks=True, **group)
     sky.step(steps)
@@ -134,7 +134,7 @@ def test_every_kind_has_health_points_and_a_pace_that_makes_it_harder():
 
 
 def shoot(steps=1, **fields):
-    """Return a sky in which a gun at (240, 60) has worked for some steps. fields: changed fields of its pattern."""
+    """Return a `Sky` in which a gun at (240, 60) has fired for some steps. fields: changed fields of its pattern."""
     sky = Sky()
     sky.scene.plane.shelter(9999)
     gun = Gun(Pattern(**(SHOT | fields)))
