@@ -12,7 +12,7 @@ FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):
-    """Return whether numba compiles the function, i.e. whether it has a decorator of a kernel."""
+    """Return whether a function has a decorator that makes it a kernel, compiled by numba."""
     return any(isinstance(each, ast.Name) and each.id in DECORATORS for each in function.decorator_list)
 
 

@@ -219,9 +219,10 @@ def test_many_islands_fall_asleep_in_one_step():
 
 
 def test_what_was_in_an_island_and_now_stands_is_ground():
-    """A body of a sleeping island that becomes static counts as ground of the other bodies.
+    """A body that becomes static while its island sleeps counts as ground for the other bodies.
 
-    The island number in its row must be cleared; otherwise the bodies on it seem to belong to its island.
+    Its row must no longer contain the island's number. Otherwise the bodies that rest on it would seem to belong to
+    that island.
     """
     world, _, boxes = pile()
     boxes[2].wake()
@@ -238,9 +239,9 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
 
 @pytest.mark.parametrize("strategy", BROADPHASES)
 def test_falling_asleep_leaves_each_pair_once(strategy):
-    """Each pair is reported once when the bodies fall asleep, with every broad phase.
+    """No candidate pair is listed twice while bodies fall asleep, with every broad phase.
 
-    Only the set of awake bodies changes in this step, not the boxes of the broad phase.
+    Falling asleep changes the set of awake bodies, but no box of the broad phase.
     """
     world = World(broadphase=BROADPHASES[strategy]())
     floor(world)

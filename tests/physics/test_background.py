@@ -1,4 +1,4 @@
-"""compile_in_background(): the program never waits for the compiler, whatever happens to the compiling processes.
+"""compile_in_background() never makes the program wait, whatever happens to the processes that compile.
 
 The digests stay the same.
 """
@@ -41,7 +41,10 @@ for line in sys.stdin:
 
 @pytest.fixture
 def pool(tmp_path, monkeypatch):
-    """Yield a function make(count, module) that starts Workers of a module whose tasks answer, die or hang."""
+    """Yield a function make(count, module), which starts `Workers`: `count` processes that run the tasks of a module.
+
+    The tasks of the default module answer, end their process or never return.
+    """
     (tmp_path / "answering.py").write_text(ANSWERS.replace("ROOT", repr(str(ROOT))))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     made = []
@@ -146,7 +149,10 @@ def test_a_wrong_number_of_workers_is_refused(given):
 
 
 class Asked:
-    """Replacement of a process pool that stores its tasks; the test chooses which task a process would take."""
+    """A stand-in for the process pool, which only stores its tasks.
+
+    `first()` returns the task that a process would take next.
+    """
 
     count, alive, left = 1, True, 0
 
@@ -186,7 +192,7 @@ def calling(called):
 
 @pytest.fixture
 def ordered(monkeypatch):
-    """Return order(seconds, function), which orders a kernel from a Background without threads or processes."""
+    """Yield order(seconds, function), which asks a Background to compile a kernel; no thread or process is started."""
     monkeypatch.setattr(physics.background, "JIT", False)
     monkeypatch.setattr(physics.background, "Workers", lambda *given: Asked())
     background = physics.background.Background(1)
@@ -281,9 +287,9 @@ def compiled_digests():
 @jitted
 @pytest.mark.parametrize("given", ["[]", "[2]"])
 def test_a_script_without_a_guard_goes_on_plain_and_is_compiled(tmp_path, compiled_digests, given):
-    """A script without a main guard runs in plain Python from an empty folder and is compiled in the background.
+    """A script without a main guard runs in plain Python at first and is compiled in the background.
 
-    After the first 200 steps the test waits until kernels arrive.
+    The folder of compiled kernels is empty at its start. After 200 steps the first run waits until kernels arrive.
     """
     digests, compiled, taken, _ = program(tmp_path / "kernels", given, 15)
     assert digests == compiled_digests and compiled == 0 and taken < 1.0

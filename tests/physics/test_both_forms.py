@@ -27,7 +27,7 @@ FAR = 2.0**20  # [px] a character is carried by so many pixels one by one: more 
 
 
 def write_wrong(world, rng, walkers):
-    """Write random values of NUMBERS into random columns of random bodies, and wake most of these bodies.
+    """Write invalid or extreme NUMBERS into random columns of random bodies, and wake most of these bodies.
 
     walkers: True if the world has characters; then very large finite numbers are left out.
     """
@@ -100,7 +100,8 @@ def test_forms_are_the_same_in_sound_worlds(kind, solver, strategy):
 def test_one_wrong_number_of_a_turned_mask(column, value, kind, touched):
     """A rotated mask with one invalid number, under a resting box, gives equal results in both forms.
 
-    With such a number its pixels have no column, its angle no bucket, and its sleep time no whole number.
+    Such a number has no pixel column as a position, no bucket as an angle, and is no whole number of steps as a sleep
+    time.
     """
     effects, _ = KINDS["stacked"]
     with compared():
@@ -131,7 +132,10 @@ def test_a_negative_inverse_mass_is_quarantined(column, value):
 @pytest.mark.parametrize("column", ["x", "y", "angle", "extent"])
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e300])
 def test_closest_ends_where_no_body_is_anywhere(column, value):
-    """World.closest() returns although a body has no finite box; it must not search a box grown to NaN for ever."""
+    """World.closest() returns although no body has a finite box.
+
+    Its search box grows until a body is inside; it must not grow for ever.
+    """
     world = World(Effects())
     world.add_body(PixelMask(np.ones((4, 4), bool)), position=(300.0, 0.0))
     world.bodies[column][0] = value
@@ -142,7 +146,7 @@ def test_closest_ends_where_no_body_is_anywhere(column, value):
 
 @kernel
 def columns_of(values, origin, buckets, columns_out, buckets_out):
-    """Write, for each value, the pixel column at which a mask would be drawn, and the index of its angle bucket."""
+    """Write two numbers for each value: its pixel column as a position, and the index of its bucket as an angle."""
     for k in range(len(values)):
         columns_out[k] = snapped(values[k], origin)
         buckets_out[k] = bucket_at(values[k], buckets)
@@ -160,8 +164,9 @@ def test_what_has_no_pixel_is_nowhere_in_both_forms():
 
 @kernel
 def ranges_of(values, set_low, set_high, ranges_out):
-    """Write the range (first, last) of pixels between every two of the values; set_low, set_high: range of solid
-    pixels.
+    """Write the range of pixels (first, end) between every two of the values.
+
+    set_low, set_high: range of solid pixels to which the results are clipped, end exclusive.
     """
     found = 0
     for low in range(len(values)):
@@ -172,8 +177,9 @@ def ranges_of(values, set_low, set_high, ranges_out):
 
 @pytest.mark.parametrize("set_low, set_high", [(0, 9), (2, 3), (0, 0)])
 def test_ranges_of_pixels_stay_within_the_solid_ones(set_low, set_high):
-    """The range of pixels between two positions lies within the solid ones, and is correct pixel by pixel for finite
-    ends.
+    """The range of pixels between two positions lies within the solid pixels.
+
+    If both positions are finite, it contains exactly the pixels found by testing each one.
     """
     values = np.array([*NUMBERS, 2.5, 3.0, 4.0, 5.25, 9.0, 30.0])
     ranges = np.zeros((len(values) ** 2, 2), np.int64)

@@ -1,5 +1,6 @@
-"""Data that a broad phase keeps between steps: by the counters, resting bodies cost nothing and few changes cost
-little.
+"""Broad phases reuse the results of the last step.
+
+Their counters show that resting bodies cause no work and that few changes cause little.
 """
 
 import math
@@ -31,8 +32,9 @@ every_strategy = pytest.mark.parametrize("make", STRATEGIES.values(), ids=STRATE
 
 
 def field(make, n, spacing=20.0, radius=8.0, **options):
-    """Return (world, ids) of n circles on a square grid that do not touch, after two steps. make: function for the
-    broad phase.
+    """Return (world, ids) of n circles on a square grid that do not touch, after two steps.
+
+    make: function that creates the broad phase.
     """
     world = World(Effects(), make())
     side = math.ceil(math.sqrt(n))

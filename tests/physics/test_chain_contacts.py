@@ -62,8 +62,9 @@ def test_nothing_is_felt_at_the_seams_of_a_flat_chain(name, depth):
 
 
 def mirrored_many(chain, at, shape, pose, margin=0.0):
-    """Return the manifold of a chain and a shape, after a check that the opposite order agrees. It may have over two
-    points.
+    """Return the manifold of a chain and a shape; it may have more than two points.
+
+    First check that the opposite order of the shapes gives the same manifold with the opposite normal.
     """
     one, two = collide(chain, at, shape, pose, margin), collide(shape, pose, chain, at, margin)
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()
@@ -115,8 +116,9 @@ def test_a_convex_corner_is_met_between_the_two_normals_and_once():
 
 @pytest.mark.parametrize("name", ["circle", "box", "capsule", "rounded", "triangle"])
 def test_depth_over_rough_ground_is_the_distance_from_the_line(name):
-    """The least separation of a shape in front of every link is the exact distance from the line; an overlap is a
-    contact.
+    """The least separation of a shape from a chain is its exact distance from the chain's line.
+
+    This holds for a shape in front of every link. An overlap always gives a contact.
     """
     rng, shape, near = np.random.default_rng(len(name)), MOVERS[name], 0
     for _ in range(COUNT):
@@ -235,9 +237,9 @@ def test_grids_and_chains_do_not_meet_each_other():
 @pytest.mark.parametrize("tilt", [-0.01, -1e-3, 0.0, 1e-3, 0.01])
 @pytest.mark.parametrize("name", ["capsule", "long capsule", "rounded"])
 def test_a_chain_without_ghosts_is_level_where_a_round_body_leaves_its_first_link(name, tilt):
-    """A round body that leaves the first link of a chain without ghosts moves level over the corner to the second.
+    """A round body over the corner between two level links has a vertical normal, also without ghost vertices.
 
-    The corner is treated by the end that is touched: near the open end the normal may tilt outwards.
+    Near the open ends of such a chain the normal may tilt outwards.
     """
     shape, radius = {
         "capsule": (Capsule((-6, 0), (6, 0), 6), 6.0),

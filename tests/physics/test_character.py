@@ -28,8 +28,10 @@ BOX = Polygon.box(10, 20)
 
 
 def ground(rows, size=16, legend=None):
-    """Return a world with tiles: # solid, = one-way, / and \\ slopes of 45 degrees, 1 2 the halves of a 1:2 slope up, 3
-    4 down.
+    """Return (world with a tile grid, solid cells, slopes of the cells) for a map of characters.
+
+    rows: strings in which # is a solid and = a one-way cell. / and \\ are slopes of 45 degrees. 1 and 2 are the two
+    halves of a 1:2 slope that rises to the right, 3 and 4 those of one that falls.
     """
     heights = {"/": (0, 1), "\\": (1, 0), "1": (0, 0.5), "2": (0.5, 1), "3": (1, 0.5), "4": (0.5, 0)}
     grid = np.array([list(row) for row in rows])

@@ -1,5 +1,6 @@
-"""Characters on masks use the outline: they move as on a polygon or chain of the same corners, and feel no seam of
-parts.
+"""Characters on masks move as on a polygon or chain with the corners of the mask's outline.
+
+Seams between the parts of the outline have no effect.
 """
 
 import math
@@ -156,7 +157,7 @@ def test_carried_by_a_platform_of_pixels_as_by_a_box(shape, turns, effects):
 
 @pytest.mark.parametrize("effects", [PLAIN, STACKS], ids=["plain", "stacking"])
 def test_carried_by_what_is_no_box(effects):
-    """A kinematic pixel hull with a flat deck carries the character on it by the point under its feet."""
+    """A character on the flat deck of a moving mask in the form of a boat is carried along with it."""
     at = np.arange(90) - 44.5
     boat = np.arange(24)[:, None] < 24.0 - (at / 12.0)[None, :] ** 2
     world = World(effects, gravity=(0, 0) if effects.gravity else None)

@@ -1,5 +1,6 @@
-"""The same rule for every ground: a slope flatter than max_slope is walked, a steeper one is slid down; slopes are
-reported.
+"""One rule holds for every kind of ground: characters walk slopes flatter than max_slope and slide down steeper ones.
+
+The slope under a character is reported.
 """
 
 import math

@@ -44,8 +44,9 @@ class Twin:
         )
 
     def candidates(self, reach=0.0):
-        """Return the pairs whose swept boxes overlap. reach [radii]: enlargement of moving bodies' boxes for later
-        motion.
+        """Return the pairs whose swept boxes overlap.
+
+        reach: how far the boxes of moving bodies are enlarged for later motion [radii].
         """
         found, items = [], [(i, b, self.rectangle(b, reach)) for i, b in sorted(self.bodies.items())]
         for at, (i, b, p) in enumerate(items):

@@ -66,7 +66,10 @@ def test_a_world_that_keeps_colors_is_one_that_colors_anew_in_each_step(substeps
 @pytest.mark.parametrize("field", ["rank", "has_finite_mass"])
 @pytest.mark.parametrize("seed", range(10))
 def test_colors_follow_the_rank_and_the_mass_of_each_body(field, seed):
-    """Colours are recomputed when a body gets another rank or infinite mass, although the contact graph is the same."""
+    """Colours are recomputed if a body becomes kinematic or static, although the contact graph is unchanged.
+
+    The body gets infinite mass and, in half of the cases, another rank.
+    """
     world, rng = pile(4, seed), np.random.default_rng(seed)
     for _ in range(40):
         world.step()

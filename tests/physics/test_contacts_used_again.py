@@ -44,7 +44,8 @@ def ask_again(world):
 def follow(make, edit):
     """Run a world with recycled contacts, and again without them. Assert that each step reports the same.
 
-    edit(world, step, memory) is called before each step.
+    edit(world, step, memory): function called before each step. memory: dict that it may use, with the result of make()
+    as "made".
     """
     ran = []
     for asked in (False, True):
@@ -84,7 +85,10 @@ def turn_one_in_the_table(world, step, memory):
 
 
 def put_in_its_place(world, step, memory):
-    """Remove a body and move the next one in the table to its pose, so that the latter gets its row and its pose."""
+    """Edit that removes a body and moves the next one in the table to the pose of the removed body.
+
+    The moved body thus gets both the row and the pose of the removed one.
+    """
     _, _, bodies = memory["made"]
     if step in (STEPS // 3, STEPS // 2):
         first, second = bodies.pop(4), bodies[4]
@@ -94,7 +98,7 @@ def put_in_its_place(world, step, memory):
 
 
 def restore(world, step, memory):
-    """Move the floor before taking a snapshot, and restore this snapshot in two later steps."""
+    """Edit that moves the floor and takes a snapshot, and restores this snapshot in two later steps."""
     _, floor, _ = memory["made"]
     if step == STEPS // 4:
         floor.position = (0.0, 20.75)
@@ -147,9 +151,9 @@ def test_contacts_that_sleep_are_asked_when_they_wake():
 
 
 def test_contacts_sleep_exactly_where_they_stand():
-    """Contacts are stored at the final poses when an island sleeps, so they are solved as they are when it wakes.
+    """The contacts of an island are stored at its final poses when it sleeps, so that they are valid when it wakes.
 
-    They equal, to the bit, those of a step that evaluates every point anew.
+    They equal, to the bit, contacts whose points are all evaluated again at these poses.
     """
     world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(30, 16), Polygon.box(18, 24)))
     for k, body in enumerate(bodies):

@@ -17,7 +17,8 @@ def still_world(effects=FAST, **options):
 def test_disc_meets_disc_at_the_closed_form_time():
     """A disc hits another at the closed-form time and keeps its tangential velocity.
 
-    Relative start (-3, 0.3), velocity (200, 0), sum of radii 0.6: the impact is after 0.012401923788647 of a second.
+    It starts at (-3, 0.3) from the other with a velocity of (200, 0). The radii add up to 0.6, so they meet after
+    0.012401923788647 s.
     """
     world = still_world(pixels_per_meter=1.0)
     world.add_body(Circle(0.5), kind="static")

@@ -117,9 +117,10 @@ def test_a_rack_falls_against_its_pinion(radius, angle, setting):
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("tier", ["iterative", "direct", "auto"])
 def test_a_planetary_gear_turns_by_willis(tier, setting):
-    """In a planetary gear with a fixed sun, the planet turns by sun / planet relative to the driven carrier (Willis).
+    """The planet of a planetary gear with a fixed sun turns as Willis's equation says.
 
-    The carrier is connected to both joints of the gear.
+    Its angle relative to the carrier is r_sun / r_planet times the angle of the carrier. The driven carrier is part of
+    both joints that the gear couples.
     """
     world = world_of(setting, FLOATING)
     world.joint_solver = tier
@@ -180,7 +181,10 @@ def test_a_gear_of_bodies_couples_their_angles(ratio, setting):
 
 
 def test_a_gear_takes_the_angle_of_a_wheel_and_a_groove_may_roll():
-    """A gear accepts an Angle joint and a slider of the same body, which then rolls in its groove without slip."""
+    """A gear can couple an Angle joint and a slider of the same body; the body then rolls in its groove without slip.
+
+    A gear can also couple the angle of a Wheel joint.
+    """
     world = World(EFFECTS)
     ball = world.add_body(Circle(10.0))
     slope = math.cos(0.5), math.sin(0.5)
@@ -221,9 +225,9 @@ def test_a_geared_arm_that_swings_gains_no_energy(tier, mass, setting):
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 @pytest.mark.parametrize("rigid", [False, True])
 def test_an_atwood_machine_has_its_acceleration_and_its_tension(rigid, ratio, masses, setting):
-    """In an Atwood machine B falls by g (m - ratio) / (m + ratio²), where m is the mass of B over that of A.
+    """Body B of an Atwood machine falls by g (m - ratio) / (m + ratio²), where m is the mass of B over that of A.
 
-    The rope pulls B with ratio times its tension T.
+    The rope holds back B with the force m_b (g - that acceleration).
     """
     world = world_of(setting)
     a = world.add_body(Circle(6.0), position=(0.0, 500.0), mass=10.0)

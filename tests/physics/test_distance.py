@@ -71,8 +71,9 @@ def check_certificates(a, b, room):
 
 
 def fuzz(seed, pairs, slimmest):
-    """Check random pairs (docs/stability.md, C13). Return (share of overlaps, numbers of rounds of the pairs that do
-    not overlap).
+    """Check random pairs (docs/stability.md, C13).
+
+    Return (share of pairs that overlap, number of search rounds of each other pair).
     """
     rng, room, hits, rounds = np.random.default_rng(seed), new_gap_workspace(), 0, []
     for _ in range(pairs):

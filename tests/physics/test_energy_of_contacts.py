@@ -16,9 +16,10 @@ SUBSTEPS = (4, 16, 32, "auto")
 
 
 def energies(world, body, height, steps):
-    """Step a world and return (steps,) kinetic plus potential energy of a body, as shares of that at the start.
+    """Step a world and return (steps,) energies of a body after each step, divided by its energy at the start.
 
-    height(): function that returns the height of its centre of mass over the lowest possible one [px].
+    The energy is kinetic plus potential. height(): function that returns the present height of the centre of mass above
+    its lowest possible position [px].
     """
     start, found = body.mass * world.gravity[1] * height() + body.kinetic_energy, []
     for _ in range(steps):
@@ -28,9 +29,9 @@ def energies(world, body, height, steps):
 
 
 def eccentric(offset, weight, tilt, **settings):
-    """Return (world, body, height) of an eccentric disc, which contains a heavy small disc, on level ground.
+    """Return (world, body, height) of a disc on level ground that contains a small heavy disc off its centre.
 
-    height(): function that returns the height of its centre of mass over the lowest possible one [px].
+    height(): function that returns the present height of the centre of mass above its lowest possible position [px].
     """
     world = World(EFFECTS, **settings)
     rough = Material(friction=4.0)  # it rolls without slip
@@ -42,9 +43,9 @@ def eccentric(offset, weight, tilt, **settings):
 
 
 def bowl(links, radius, start, **settings):
-    """Return (world, body, height) of a disc in a half circle of links without friction.
+    """Return (world, body, height) of a disc in a half circle of chain links without friction.
 
-    height(): function that returns the height of the disc's centre over the lowest possible one [px].
+    height(): function that returns the present height of the disc's centre above its lowest possible position [px].
     """
     world = World(EFFECTS, **settings)
     rim = [(400 * math.cos(a), 400 * math.sin(a)) for a in np.linspace(math.pi, 0, links + 1)]
@@ -84,7 +85,10 @@ def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
 
 
 def rocking(half_height, tilt, effects=EFFECTS, **settings):
-    """Return (world, plank) of a plank on a static disc of 12 px, rolled from its middle by the angle `tilt` [rad]."""
+    """Return (world, plank) of a plank that lies on a static disc with a radius of 12 px.
+
+    The plank has rolled on the disc by the angle `tilt` [rad] from its level position in the middle.
+    """
     world, rough = World(effects, **settings), Material(friction=0.9)
     world.add_body(Circle(12), kind="static", material=rough)
     n, t = (math.sin(tilt), -math.cos(tilt)), (math.cos(tilt), math.sin(tilt))

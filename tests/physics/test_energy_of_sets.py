@@ -1,6 +1,6 @@
-"""The energy limit visits all contacts only if a set of bodies gained energy.
+"""The limit on the energy of a set of bodies visits all contacts only if the set gained energy.
 
-Otherwise a shorter computation must give the same velocities and the same energy reserves of the bodies.
+Otherwise a shorter computation must give the same velocities and the same energy reserves.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ LONG = ("vx", "vy", "angular_velocity")
 
 
 def collapse(seed, substeps):
-    """Return a world with a falling heap of boxes and discs of several densities; some of them fall onto free discs."""
+    """Return a world with a heap of boxes and discs that falls onto a floor, and some discs that meet in the air."""
     world, rng = World(EFFECTS, substeps=substeps), np.random.default_rng(seed)
     world.add_body(Polygon.box(500, 20), position=(0, 200), kind="static")
     for k in range(50):
@@ -32,8 +32,9 @@ def test_both_ways_leave_the_same_velocities_and_reserves(monkeypatch, seed, sub
     limit, calls = soft_step.limit_energy, []
 
     def both(blocks, count, group, links, moving, context, plan, balance, motions):
-        """Run the full computation on copies, as beside moving kinematic bodies, then the one under test, and compare
-        both.
+        """Run the full computation on copies, then the one under test, and compare the results.
+
+        The full one is the one that is used beside moving kinematic bodies.
         """
         assert moving == 0
         full = balance.copy(), motions.copy()

@@ -34,7 +34,10 @@ def random_shape(kind, rng):
 
 
 def hull_of(shape, pose):
-    """Return (corners of the shape's core in world space (n, 2), radius)."""
+    """Return (corners (n, 2) in world space, rounding radius) of a shape.
+
+    A circle has one corner, its centre; a capsule has two.
+    """
     x, y, angle = pose
     if isinstance(shape, Bounds):
         core, radius = hull_of(shape.shape, pose)
@@ -48,7 +51,7 @@ def hull_of(shape, pose):
 def gap_of(a, b):
     """Return the signed distance of two rounded hulls.
 
-    It is the distance of the origin from the Minkowski difference of their cores, minus both radii.
+    It is the distance of the origin from the Minkowski difference of the two sets of corners, minus both radii.
     """
     difference = shapely.MultiPoint([tuple(q - p) for p in a[0] for q in b[0]]).convex_hull
     origin = shapely.Point(0, 0)
@@ -170,8 +173,9 @@ def test_features_persist_while_a_body_slides():
 
 
 def test_centres_on_cores_have_their_documented_way_out():
-    """Shapes whose centre lies on the other's core get their documented depth and a unit normal (docs/stability.md, B5,
-    B6).
+    """A shape whose centre lies on the core of another gets the documented depth (docs/stability.md, B5, B6).
+
+    The core of a rounded shape is the point, line or polygon to which its radius is added. The normal is a unit vector.
     """
     pill = Capsule((-5, 0), (5, 0), 2)
     for at, depth in (((0, 0), -3), ((5, 0), -3), ((-5, 0), -3), ((7, 0), -1)):
@@ -208,8 +212,9 @@ def test_lines_end_to_end_touch_only_where_they_meet():
 
 
 def test_needles_never_miss_each_other():
-    """Crossing needles always collide: thin shapes at small angles, compared with exact arithmetic over corners
-    (docs/stability.md, B10).
+    """Thin needles that cross at small angles always collide (docs/stability.md, B10).
+
+    Whether they cross is decided by the sides of their corners in rational numbers.
     """
     from fractions import Fraction
 
@@ -233,7 +238,7 @@ def test_needles_never_miss_each_other():
 def test_corner_to_corner_is_classified_by_the_sign_alone():
     """Whether corners and edges touch depends on the sign of the gap alone (docs/stability.md, B9).
 
-    Shapes 1e-12 closer than touching still touch; shapes 1e-9 apart do not.
+    Shapes collide if they just touch or overlap by 1e-12, and do not collide with a gap of 1e-9.
     """
     for shape in (Polygon.box(2, 2), Polygon(Polygon.box(1, 1).points, 0.5), Capsule((-0.5, 0), (0.5, 0), 0.5)):
         for nudge in (0.0, -1e-12, -1e-9):

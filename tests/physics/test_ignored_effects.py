@@ -216,9 +216,9 @@ def test_names_that_are_ignored_are_effects():
 
 @pytest.mark.parametrize("solver", ["blocking", "projection"])
 def test_what_ignored_effects_leaves_to_others(solver):
-    """Features that `ignored_effects` does not cover: the blocking solver rotates bodies by their own spin.
+    """`ignored_effects` is about the solver only: parts of the engine outside the solver still use the effects.
 
-    If stacking is declared, a Character stands on dynamic bodies.
+    Under these solvers a body still rotates by its angular velocity, and a Character still stands on dynamic bodies.
     """
     world = World(solver=solver)
     floor(world)

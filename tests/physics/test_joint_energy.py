@@ -56,8 +56,10 @@ def test_a_double_pendulum_keeps_its_energy_and_its_pins(angle, ratio, substeps)
 
 
 def hung(kind, hertz, damping, substeps, solver: SolverName = "soft_step", drop=0.3):
-    """Return (world, function of its distance from rest) of a body on a spring, released `drop`
-    from its rest position.
+    """Return (world, displacement) of a body on a spring without gravity, released `drop` from its rest position.
+
+    displacement(): function that returns the present distance from the rest position [m], or the angle [rad] for a
+    hinge.
     """
     world = World(EFFECTS, gravity=(0.0, 0.0), pixels_per_meter=1, substeps=substeps, solver=solver)
     spring = Spring(hertz, damping)

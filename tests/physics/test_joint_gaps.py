@@ -40,9 +40,10 @@ def energies(world):
 
 
 def close(world, seconds=2.0):
-    """Step until all gaps are below 1 cm, at most for `seconds`. Return the greatest gain and the final gap [m].
+    """Step until all gaps are below 1 cm, for at most `seconds`. Return (greatest energy gain, final gap [m]).
 
-    A gain is kinetic energy that a step adds beyond the work of gravity, relative to a fall by the chain's length.
+    The gain of a step is the rise of the kinetic energy beyond the work of gravity. It is divided by the energy of a
+    fall by the length of the chain.
     """
     fall = LINKS * GRAVITY * float(world.bodies["mass"].sum())
     gain = 0.0
@@ -68,7 +69,10 @@ def scatter(world, distance, seed, ids=None):
 @pytest.mark.parametrize("substeps", [4, "auto", 32])
 @pytest.mark.parametrize("ratio", [1.0, 1e3, 1e6])
 def test_gaps_of_the_iterative_tier_close_without_a_gain_of_energy(ratio, substeps, solver):
-    """Ten phases: a chain that the iterative tier has let part, by up to 3 m, is solved directly from then on."""
+    """The gaps that the iterative joint solver leaves close without a gain of energy under the direct one.
+
+    The gaps are up to 3 m wide. Ten phases vary the angle of the chain and the time at which the solver is changed.
+    """
     for phase in np.arange(10) / 10.0:
         world = chain(ratio, 1.4 * phase, solver=solver, substeps=substeps)
         world.joint_solver = "iterative"
@@ -84,7 +88,10 @@ def test_gaps_of_the_iterative_tier_close_without_a_gain_of_energy(ratio, subste
 @pytest.mark.parametrize("substeps", [4, "auto", 32])
 @pytest.mark.parametrize("ratio", [1.0, 1e3])
 def test_scattered_links_are_drawn_together_without_a_gain_of_energy(ratio, substeps, solver):
-    """Ten phases, moved by 0.1 to 1.6 m at the start; then one link of a swinging chain is moved."""
+    """Links that were moved apart by 0.1 to 1.6 m close their gaps without a gain of energy.
+
+    First all links are moved, later one link of the swinging chain. Ten phases vary the angle and the distance.
+    """
     for phase in range(10):
         world = chain(ratio, 0.2 + 0.12 * phase, solver=solver, substeps=substeps)
         scatter(world, 0.1 * 2 ** (phase % 5), phase)
@@ -101,7 +108,10 @@ def test_scattered_links_are_drawn_together_without_a_gain_of_energy(ratio, subs
 @pytest.mark.parametrize("substeps", [4, "auto", 32])
 @pytest.mark.parametrize(("ratio", "most"), [(1.0, 0.03), (1e3, 0.1)])
 def test_links_with_motors_are_drawn_together_gently(ratio, most, substeps, solver):
-    """No bound on the energy applies to motors; those here hold nothing."""
+    """Scattered links whose hinges have weak motors close their gaps with a small gain of energy.
+
+    Motors may add energy, so the energy limit does not apply to them.
+    """
     for phase in range(10):
         world = chain(ratio, 0.2 + 0.12 * phase, 0.01, solver=solver, substeps=substeps)
         scatter(world, 0.1 * 2 ** (phase % 5), phase)
@@ -129,7 +139,10 @@ def test_a_gap_closes_at_the_push_out_speed_and_leaves_no_velocity(distance, sub
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("substeps", [4, "auto"])
 def test_a_bridge_closes_behind_a_plank_that_is_moved(substeps, solver):
-    """Both ends are fixed, so that gaps cannot close without rotation."""
+    """A bridge closes its gaps after one of its planks was moved away.
+
+    Both ends of the bridge are fixed, so the gaps cannot close without rotation of the planks.
+    """
     for phase in range(10):
         world = World(EFFECTS, gravity=(0.0, GRAVITY), pixels_per_meter=1, solver=solver, substeps=substeps)
         planks, before = [], None
@@ -149,7 +162,7 @@ def test_a_bridge_closes_behind_a_plank_that_is_moved(substeps, solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_wide_gaps_do_not_change_other_islands(solver):
-    """A doll that lies on the floor, with and without a chain that is drawn together beside it."""
+    """Closing the gaps of a chain does not change the motion of a jointed doll that lies on a floor beside it."""
     ends = []
     for beside in (False, True):
         world = chain(10.0, 0.5, solver=solver)
@@ -173,7 +186,10 @@ def test_wide_gaps_do_not_change_other_islands(solver):
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("depth", np.linspace(0.05, 0.4, 10))
 def test_the_push_out_of_an_overlap_keeps_limits_and_anchors(depth, substeps, solver):
-    """Two arms on hinges with limits lie in the floor, one on the left end and one on the right end of a beam."""
+    """Jointed bodies that overlap the floor are pushed out without a joint gap and without passing the joint limits.
+
+    A beam starts in the floor. An arm hangs on each of its ends, on a hinge with limits.
+    """
     world = World(EFFECTS, gravity=(0.0, GRAVITY), pixels_per_meter=1, solver=solver, substeps=substeps)
     world.add_body(Polygon.box(20.0, 2.0), position=(0.0, 1.0), kind="static")
     beam = world.add_body(Polygon.box(2.0, 0.4), position=(0.0, -0.2 - depth))

@@ -126,8 +126,10 @@ def chain(links, ratio=1.0, weld=False, ends=1, backwards=False, bend=0.3, seed=
 
 
 def random_forest(seed, decades=0.0, soft=0.0):
-    """Return a system of random trees of bodies, with joints of 1 to 3 rows to each other, the world and a kinematic
-    body.
+    """Return a system of random trees of bodies with joints of 1 to 3 rows.
+
+    The joints connect the bodies to each other, to the world and to a kinematic body. decades: range of the masses in
+    powers of ten. soft: above 0 for joints of more than one row, some of them with compliance.
     """
     rng = np.random.default_rng(seed)
     bodies = int(rng.integers(1, 61))
@@ -163,9 +165,10 @@ def random_forest(seed, decades=0.0, soft=0.0):
 
 
 def system(joints):
-    """Return (Jacobian, right-hand sides, compliances, inverse masses, velocities, row positions) of the taken joints.
+    """Return (Jacobian, right-hand sides, compliances, inverse masses, velocities, keys) of the taken joints' rows.
 
-    The Jacobian has the shape (rows, motions · 3).
+    The Jacobian has the shape (rows, 3 · motions). Taken are the joints that the solver solves. keys: (joint, row of
+    the joint) of each row.
     """
     motions = joints.motions
     columns = 3 * len(motions)
@@ -186,7 +189,7 @@ def system(joints):
 
 
 def dense_solution(joints):
-    """Return (impulses, velocities, row positions) of the taken joints, solved by NumPy."""
+    """Return (impulses, velocities, keys) of the taken joints, solved by NumPy; keys as in `system`."""
     jacobian, rhs, soft, inverse, before, places = system(joints)
     matrix = (jacobian * inverse) @ jacobian.T + np.diag(soft)
     scale = 1.0 / np.sqrt(np.diag(matrix))
@@ -195,7 +198,10 @@ def dense_solution(joints):
 
 
 def exact_solution(joints):
-    """Return (impulses, velocities, row positions) in rational numbers, solved by Gaussian elimination."""
+    """Return (impulses, velocities, keys) of the taken joints in rational numbers, solved by Gaussian elimination.
+
+    keys: as in `system`.
+    """
     jacobian, rhs, soft, inverse, before, places = system(joints)
     lines = [{k: Fraction(x) for k, x in enumerate(line.tolist()) if x} for line in jacobian]
     masses, start = [Fraction(x) for x in inverse.tolist()], [Fraction(x) for x in before.tolist()]
@@ -224,9 +230,9 @@ def velocities(joints):
 
 
 def residuals(joints):
-    """Return (largest violation of a row, largest velocity that the impulses do not explain), both relative.
+    """Return (greatest violation of a row, greatest velocity error), both relative and computed in rational numbers.
 
-    They are computed in rational numbers.
+    A velocity error is the difference from the velocity that follows from the impulses.
     """
     jacobian, rhs, soft, inverse, before, places = system(joints)
     after = [Fraction(x) for x in velocities(joints).tolist()]

@@ -209,9 +209,9 @@ def test_what_was_not_used_for_two_weeks_goes(kept, days, stays):
 
 @pytest.mark.parametrize("used", range(4))
 def test_what_was_used_last_stays_when_the_folder_outgrows_its_limit(kept, monkeypatch, used):
-    """The most recently used files stay when the folder exceeds its limit; of four files two fit.
+    """The most recently used files stay when the folder exceeds its limit.
 
-    Reading counts as use: the file number `used` is read.
+    There are four files and room for two. The file number `used` is read first, which counts as use.
     """
     monkeypatch.setattr(module, "LIMIT", 2 * 1016)
     for number in range(4):

@@ -1,5 +1,6 @@
-"""Contacts of masks with circles, polygons and tiles: a mask is the open union of its pixel squares (reference:
-shapely).
+"""Contacts of masks with circles, polygons and tiles, compared with shapely.
+
+A mask is the union of its pixel squares without their border: shapes that only touch it have no contact.
 """
 
 import math
@@ -16,7 +17,7 @@ COUNT = 150 if JIT else 25
 
 
 def blob(rng):
-    """Return (mask, pose at whole pixels, its squares as a shapely figure); the random mask may have holes."""
+    """Return (random mask that may have holes, unrotated pose at whole pixels, shapely union of its squares there)."""
     solid = rng.random((int(rng.integers(1, 9)), int(rng.integers(1, 12)))) < rng.choice([0.3, 0.7, 1.0])
     solid[0, 0] = True
     left, top = (int(v) for v in rng.integers(-6, 7, 2))

@@ -8,7 +8,10 @@ from physics import PixelMask, mass_of
 
 
 def surface(alphas, **colours):
-    """Return a pygame surface of one row with these alphas. colours: at0=(r, g, b) sets the colour of pixel 0."""
+    """Return a pygame surface with one row of pixels that have these alphas.
+
+    colours: keyword at0=(r, g, b) sets the colour of pixel 0, at1 that of pixel 1, and so on.
+    """
     made = pygame.Surface((len(alphas), 1), pygame.SRCALPHA)
     for x, alpha in enumerate(alphas):
         made.set_at((x, 0), (*colours.get(f"at{x}", (9, 9, 9)), alpha))

@@ -1,5 +1,6 @@
-"""Masks at exact poses (snap=False), compared with shapely: whether their pixel squares overlap, the area and the
-depth.
+"""Masks at exact poses (snap=False), compared with shapely.
+
+Compared are the test for overlap of the pixel squares, the shared area and the depth.
 """
 
 import math
@@ -73,8 +74,9 @@ def drawn(mask, pose):
 
 
 def verdicts(a, pose_a, b, poses, full=False):
-    """Return (hits (n,) bool, areas (n,)) of mask a at one pose against mask b at each of `poses`, by a world's narrow
-    phase.
+    """Return (hits (n,) bool, areas (n,) [px²]) of mask a against mask b at each of the n `poses`.
+
+    The narrow phase of a world computes them. full: True to compute areas too, False for tests of overlap only.
     """
     library, bodies, shapes = Library(), np.zeros(1 + len(poses), BODY), np.zeros(1 + len(poses), SHAPE)
     for row, (mask, pose) in enumerate([(a, pose_a), *((b, pose) for pose in poses)]):

@@ -59,7 +59,10 @@ def test_a_world_without_response_tells_who_shares_area_at_exact_poses(broadphas
 
 
 def test_a_turning_mask_comes_and_goes_between_the_angles_of_the_buckets():
-    """A rotating bar touches a dot at its exact angle, between the angles of the drawing buckets."""
+    """A rotating bar begins and ends to touch a dot at the exact angles.
+
+    Its drawn picture has only the angles of the buckets; the contact does not depend on them.
+    """
     world = World(Effects(rotation=True))
     bar = world.add_body(BAR, angular_velocity=0.3, kind="kinematic")
     angle = 0.35

@@ -123,10 +123,10 @@ def test_the_mass_of_a_capsule_in_closed_form_and_by_slices():
 
 
 def test_the_mass_of_a_rounded_polygon_is_that_of_its_parts():
-    """The mass of rounded polygons equals the sum of their parts.
+    """The mass of a rounded polygon equals the sum of its parts.
 
-    A rounded box in closed form, a short capsule against a nearly equal rounded polygon, and many corners against a
-    disc.
+    A rounded box is compared with the closed form, a polygon of 16 corners with a disc, and an irregular one with
+    shapely.
     """
     w, h, r = 8.0, 4.0, 1.5
     found = mass_of(Polygon(Polygon.box(w, h).points, r), 3.0)

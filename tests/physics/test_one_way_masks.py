@@ -36,7 +36,10 @@ def arched(width=160, height=40, **values):
 
 
 def surface_y(mask, x):
-    """Return the y of a mask's upper surface at x, both in the mask's own space; the mask has one stretch."""
+    """Return the y of a mask's upper surface at x, both in the mask's own space.
+
+    The upper surface must be one connected line.
+    """
     (stretch,) = surfaces_of(mask)
     points = np.array(stretch.shape.points)
     return float(np.interp(x, points[:, 0], points[:, 1]))
@@ -182,7 +185,7 @@ def test_who_stands_inside_passes():
 
 
 def test_a_peak_is_landed_on():
-    """A body that falls on a steep ridge lands, although its centre is behind neither side of the peak."""
+    """A body that falls on the tip of a steep ridge lands on it, and stays above both flanks."""
     height = np.abs(np.arange(80) - 39.5).astype(int)
     world, _ = world_with(PixelMask(np.arange(60)[:, None] >= height, origin=(40, 0), one_way=True))
     for x, shape in ((0.0, Circle(8)), (0.0, Polygon([(-2, -2), (2, -2), (2, 2), (-2, 2)], 6.0))):
@@ -197,7 +200,10 @@ def test_a_peak_is_landed_on():
 
 
 def test_it_slides_by_the_slope_of_the_outline():
-    """A body slides on a staircase of 2:1 as on a line, with a = g sin, as on a chain of the same points."""
+    """A body slides on a 2:1 staircase of pixels with a = g sin(angle), as on a straight line.
+
+    A chain of the same points gives the same motion.
+    """
     rows, columns = np.mgrid[:100, :200]
     mask = PixelMask(rows >= columns // 2, origin=(0, 0), one_way=True)
     (stretch,) = surfaces_of(mask)
@@ -397,9 +403,10 @@ def test_what_breaks_off_lies_as_any_other():
 
 
 def test_another_frame_keeps_ids_and_who_stands_on_it():
-    """A changed mask keeps its shape ids and the bodies on it.
+    """A one-way mask that is replaced keeps the bodies that stand on it and the shape id of an unchanged surface.
 
-    Of its two stretches, one is the same and the other is 2 px higher, more than a touching body may overlap it.
+    The mask has two separate surfaces, and one of them is raised by 2 px. This is more than a body that touches a
+    one-way mask may overlap it.
     """
     solid = np.zeros((40, 120), bool)
     solid[10:20, :50] = True

@@ -50,7 +50,10 @@ def pair_of(first, second, u, v, angle):
 
 
 def check(pair, first, second, tolerance):
-    """Compare the Shares of a pair with those of the unions of squares; tolerance [px2] of areas."""
+    """Compare the `Shares` of a pair with those of the unions of pixel squares, computed by shapely.
+
+    tolerance: allowed error of areas [px²].
+    """
     frame, turned = region_of(first), region_of(second)
 
     def shared(dx=0.0, dy=0.0):

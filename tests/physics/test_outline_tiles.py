@@ -48,7 +48,10 @@ def test_an_outline_is_that_of_its_tiles_row_by_row():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_seams_are_covered_as_if_all_parts_were_of_one_piece(seed):
-    """Seams between outline parts are covered as by corner_turns, which processes all parts at once."""
+    """The corners at seams between tiles are marked as covered exactly where corner_turns() marks them.
+
+    corner_turns() processes all parts of the outline at once, without tiles.
+    """
     solid = carved(ground(), *np.random.default_rng(seed).uniform((60, 60), (240, 140)), 20.0)
     mask = PixelMask.from_array(solid, origin=(0, 0))
     parts = [Part(corners, inner, 0.0) for _, _, corners, inner in parts_of(solid)]

@@ -126,9 +126,9 @@ def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
 
 @pytest.mark.parametrize("a, b", PAIRS)
 def test_time_of_impact_is_the_first_touch(a, b):
-    """At the time of impact two shapes touch, to 1e-9 of their size; before it they are separate.
+    """Two shapes touch at their time of impact, to 1e-9 of their size, and are separate before it.
 
-    Without a hit they stay separate.
+    If no hit is reported, they stay separate on the whole path.
     """
     rng, hits = np.random.default_rng(4), 0
     for pose_a, pose_b in pair_poses(5, 40):

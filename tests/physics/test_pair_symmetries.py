@@ -100,7 +100,10 @@ def test_mirrored_pairs_have_mirrored_answers(a, b):
 
 @pairs
 def test_contacts_turn_by_quarters_with_their_pair(a, b):
-    """Contacts rotate with their pair by a quarter turn about the origin, where only the rotation itself is rounded."""
+    """Contacts rotate with a pair that is rotated about the origin by a quarter turn.
+
+    The positions are rotated exactly; only the angles are rounded.
+    """
     for at in poses(4):
         one = ask(KINDS[a](1.0, 1), KINDS[b](1.0, 1), at)
         two = ask(KINDS[a](1.0, 1), KINDS[b](1.0, 1), [(-y, x, angle + math.pi / 2) for x, y, angle in at])

@@ -7,7 +7,7 @@ from physics.raster.pixel_tiles import TILE, PixelTiles
 
 
 def figures_of(solid):
-    """Return the expected NODE rows, found from the pixels: one row for each set of connected pixels of a tile.
+    """Return the expected rows of type NODE, found by a flood fill: one for each connected set of pixels within a tile.
 
     Pixels that share only a corner are connected.
     """

@@ -287,8 +287,9 @@ def test_closest_point_of_every_kind(shape, point, nearest, gap):
 
 
 def test_ray_along_a_segment_and_beside_it():
-    """A ray along a segment hits it from its end on; parallel, separate or zero-length rays do not (docs/stability.md,
-    H2).
+    """A ray that runs along a segment may hit the end of the segment (docs/stability.md, H2).
+
+    It misses if it is too short, parallel at a distance of 1e-9, or of length 0 elsewhere.
     """
     world = World(Effects())
     world.add_body(Segment((0, 0), (10, 0)), kind="static")

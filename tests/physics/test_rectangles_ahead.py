@@ -1,4 +1,7 @@
-"""Without stacking, swept AABBs extend ahead along the motion: there are fewer searches and no missed pair."""
+"""Without stacking, the boxes of moving bodies extend ahead to cover the motion of several steps.
+
+Bodies are then searched for less often, and no pair is missed.
+"""
 
 import numpy as np
 import pytest
@@ -17,7 +20,10 @@ def flock(strategy, rng, speed=90.0):
 
 
 def pairs_within(world, gap):
-    """Return the pairs {(id, id)}, A before B, whose surfaces are at most `gap` [px] apart, by a test of every pair."""
+    """Return the pairs {(id of A, id of B)} whose surfaces are at most `gap` [px] apart, found by a test of all pairs.
+
+    A comes before B in the table of bodies.
+    """
     ids, at = world.bodies["id"], np.stack([world.bodies["x"], world.bodies["y"]], axis=1)
     apart = ((at[:, None] - at[None]) ** 2).sum(axis=2)
     return {(int(ids[a]), int(ids[b])) for a, b in np.argwhere(np.triu(apart <= (2.0 * RADIUS + gap) ** 2, k=1))}
@@ -46,9 +52,10 @@ def test_who_flies_stops_and_turns_meets_whom_it_meets(strategy):
 
 
 def test_who_flies_on_is_looked_for_once_in_some_steps():
-    """Bodies in steady motion are searched for once in about sixteen steps, and not all in the same step.
+    """The broad phase searches for the pairs of a body in steady motion only in about every sixteenth step.
 
-    The brute-force broad phase tests each searched body against all others.
+    These steps differ from body to body. The brute-force broad phase counts the tests: it compares each searched body
+    with all others.
     """
     world = flock("brute", np.random.default_rng(4), speed=10.0)
     world.step()
@@ -64,7 +71,10 @@ def test_who_flies_on_is_looked_for_once_in_some_steps():
 @pytest.mark.parametrize("kind", ["dynamic", "kinematic"])
 @pytest.mark.parametrize("strategy", sorted(BROADPHASES))
 def test_bodies_moved_by_the_caller_meet_whom_they_meet(strategy, kind, one_by_one):
-    """Bodies that the caller moves have the pairs of a test of every pair, whether they walk, stop, turn or jump."""
+    """No pair is missed or added for bodies that the caller moves, compared with a test of all pairs.
+
+    The bodies walk, stop, turn and jump.
+    """
     rng = np.random.default_rng(5)
     world = World(Effects(), BROADPHASES[strategy]())
     places = rng.uniform(0.0, FIELD, (COUNT, 2))
@@ -87,8 +97,9 @@ def test_bodies_moved_by_the_caller_meet_whom_they_meet(strategy, kind, one_by_o
 
 @pytest.mark.parametrize("often", [1, 2, 3])
 def test_who_is_moved_on_is_looked_for_once_in_some_steps(often):
-    """A sprite that the caller moves by whole pixels is searched for once in some steps, though it stops in some of
-    them.
+    """The broad phase searches for the pairs of a sprite that the caller moves only in some steps.
+
+    This holds also for a sprite that stands still in some steps, as in motion by whole pixels.
     """
     rng = np.random.default_rng(4)
     world = World(Effects(), BROADPHASES["brute"]())
@@ -105,9 +116,9 @@ def test_who_is_moved_on_is_looked_for_once_in_some_steps(often):
 
 @pytest.mark.parametrize("way", ["velocity", "move"])
 def test_no_rectangle_is_left_behind_by_who_has_stopped(way):
-    """The box of a stopped body no longer extends ahead after sixteen steps.
+    """Sixteen steps after a body has stopped, its box no longer extends ahead.
 
-    Until then the stop may belong to a motion by whole pixels.
+    In the first steps the stop may be part of a motion by whole pixels, so the box is kept.
     """
     world = flock("hash", np.random.default_rng(4), speed=900.0)
     world.step()

@@ -40,7 +40,7 @@ def test_free_fall_is_a_parabola(solver, substeps):
 
 @pytest.mark.parametrize("solver", ["projection", "blocking"])
 def test_free_fall_without_stacking_is_its_own_recurrence(solver):
-    """Without stacking, free fall follows y_n = y0 + v0 n h + g h2 n (n + 1) / 2.
+    """Free fall without stacking follows y_n = y0 + v0 n h + g h² n (n + 1) / 2.
 
     A body moves by the speed at the end of the step; after 1 s it is g h t / 2 below the parabola.
     """
@@ -98,10 +98,10 @@ def apexes(world, ball, start, count, steps=1200):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.5, 0.8, 0.95])
 def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
-    """The k-th bounce has a height of h e^2k.
+    """The k-th bounce rises to h e^(2k), for a fall from the height h.
 
-    With stacking solvers it is right within 0.5 % and one slop, or two slops where both bounces may overlap. With
-    others it is right within g dt t, the error of one step.
+    Stacking solvers are right within 0.5 % and one slop, or two slops if a step may end in an overlap. Other solvers
+    are right within g dt t, the error of one step.
     """
     world = metres(solver)
     floor(world)
@@ -126,8 +126,8 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
 def test_bounces_end_in_the_time_of_the_series(solver):
     """Bounces end after sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s, the sum of the durations of all bounces.
 
-    Stacking solvers are right within 0.5 %; the error of others shrinks with dt. The tolerances are 1/50 of the usual
-    ones, so that small bounces count.
+    Stacking solvers are right within 0.5 %; the error of the others shrinks with dt. pixels_per_meter=0.02 makes the
+    tolerances 1/50 of the usual ones, so that low bounces count.
     """
     short = []
     for dt in (1 / 240, 1 / 960):
@@ -168,9 +168,9 @@ def test_head_on_in_closed_form(solver, restitution, density):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("offset", [0.0, 0.3, 0.7])
 def test_oblique_equal_discs_leave_at_right_angles(solver, offset):
-    """After an oblique impact, equal elastic discs leave at right angles, for v = 5, r = 0.5 and impact parameter b.
+    """Equal elastic discs leave an oblique impact at right angles.
 
-    v1' = 5 (b2, -b sqrt(1 - b2)); v2' has the rest of the momentum.
+    With v = 5, r = 0.5 and an impact parameter b, v1' = 5 (b², -b sqrt(1 - b²)); v2' has the rest of the momentum.
     """
     world = metres(solver, gravity=(0, 0), effects=pile_effects(friction=False))
     elastic = Material(restitution=1.0)
@@ -339,7 +339,7 @@ def test_sliding_disc_rolls_after_two_thirds(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("speed", [2.0, 5.0, -5.0])
 def test_stopping_distance(solver, speed):
-    """A sliding box stops after a distance of v2 / (2 mu g) and a time of v / (mu g)."""
+    """A sliding box stops after a distance of v² / (2 mu g) and a time of v / (mu g)."""
     world = metres(solver)
     floor(world, friction=0.4)
     box = world.add_body(
@@ -432,9 +432,10 @@ def test_leaning_cards_need_half_the_tangent():
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_domino_tips_beyond_its_diagonal(solver):
-    """A domino released on its edge tips beyond atan(t / h), within 1 degree.
+    """A domino released on its edge tips if it leans beyond atan(t / h), within 1 degree.
 
-    A struck one tips beyond an impulse of m g (sqrt(h2 + t2) - h) / 2 by energy; 0.9 and 1.1 of it are tested.
+    By energy, one that is struck tips beyond an impulse of m g (sqrt(h² + t²) - h) / 2; 0.9 and 1.1 times this impulse
+    are tested.
     """
     wide, high = 0.25, 1.0
     limit, reach = math.atan(wide / high), math.hypot(wide, high) / 2

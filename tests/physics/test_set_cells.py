@@ -9,7 +9,10 @@ BOX = Polygon.box(14, 14)
 
 
 def yard(crates=12, columns=40, effects=None, **settings):
-    """Return (world, ground, crates asleep on it), one crate on every third cell from the second on."""
+    """Return (world, ground, crates) with a row of crates asleep on a tile grid.
+
+    One crate lies on every third cell, beginning with the second.
+    """
     world = World(effects, **settings)
     ground = world.add_body(TileGrid(np.ones((2, columns), bool), 16), position=(0, 100), kind="static")
     boxes = [world.add_body(BOX, position=(24 + 48 * k, 93)) for k in range(crates)]

@@ -27,7 +27,11 @@ BODIES = {
 
 
 def apex_after(ground, shapes, half, height, restitution, apart=False, x=0.0, **settings):
-    """Drop a body. Return (height of its first bounce as a share of the fall, greatest spin after it [rad/s])."""
+    """Drop a body and return (height of its first bounce / height of the fall, greatest spin after it [rad/s]).
+
+    half: height of the body's centre when it lies on the ground [px]. height: height of the fall [px]. apart: True
+    gives each shape of the ground a body of its own.
+    """
     material = Material(restitution=restitution, friction=0.6)
     world = World(**settings)
     at = (-640, 0) if isinstance(ground[0], TileGrid) else (0, 0)
@@ -122,8 +126,9 @@ def test_a_break_is_symmetric_and_keeps_momentum(restitution):
 @needs_speed
 @pytest.mark.parametrize("settings", [{}, {"substeps": 4}], ids=["auto", "4"])
 def test_a_box_that_lands_on_two_that_rest_stays_level(settings):
-    """A box that lands on two resting boxes stays level and bounces as on the floor, within the
-    softness of contacts.
+    """A box that lands on two resting boxes stays level and bounces with its restitution.
+
+    The contacts below are soft, so the restitution may differ by 0.1.
     """
     for restitution in (0.3, 0.5, 0.9):
         material = Material(restitution=restitution, friction=0.6)

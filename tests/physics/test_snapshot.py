@@ -120,7 +120,7 @@ def test_file_round_trip_into_a_world_built_anew(tmp_path):
 
 
 def _at(world, hero):
-    """Return the character in another world that corresponds to `hero`."""
+    """Return a copy of the character `hero` for another world; it controls the body with the same id there."""
     copy = object.__new__(type(hero))
     copy.world, copy.body = world, world.body(hero.body.id)
     return copy
@@ -221,7 +221,10 @@ def test_a_plain_array_file_and_a_missing_one_are_refused(tmp_path):
 
 
 def rewritten(path, change):
-    """Rewrite a snapshot file after change(facts, arrays), and return its path."""
+    """Edit the contents of a snapshot file in place and return its path.
+
+    change(facts, arrays): function that edits the two dicts of the contents.
+    """
     with np.load(path) as stored:
         arrays = dict(stored)
     facts = json.loads(str(arrays.pop("facts")))
@@ -257,7 +260,7 @@ def test_a_file_with_a_wrong_part_is_refused_and_changes_nothing(tmp_path, name,
 
 
 def shuffled(rows):
-    """Return the same columns in another order, without padding."""
+    """Return a structured array with the same columns in reverse order and without padding."""
     names = rows.dtype.names[::-1]
     other = np.zeros(len(rows), [(name, rows.dtype[name]) for name in names])
     for name in names:

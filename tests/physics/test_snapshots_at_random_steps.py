@@ -111,14 +111,15 @@ def edit(world, seed, step):
 
 
 def told(world):
-    """Return the digest and the events of the last step."""
+    """Return (digest, events) of a world after its last step."""
     return world.digest(), {name: getattr(world.events, name).tolist() for name in EVENTS}
 
 
 def run(effects, solver, seed, put_back=lambda world, moment: world):
-    """Return the reports of every step of a run.
+    """Simulate a run and return its digest and events after every step, as a list.
 
-    put_back(world, moment) returns the world with which to continue. moment: (step, "before edits" or "after edits").
+    put_back(world, moment): function that returns the world with which to continue. moment: (step, "before edits" or
+    "after edits").
     """
     world, found = start(effects, solver, seed), []
     for step in range(STEPS):
@@ -202,9 +203,10 @@ STARTS_OVER = {
 @pytest.mark.parametrize("sensor", [False, True])
 @pytest.mark.parametrize("name", STARTS_OVER)
 def test_a_pair_that_stands_goes_on_when_what_is_awake_is_looked_for_anew(name, sensor, after, tmp_path):
-    """A resting pair that overlaps a sensor persists when the set of awake bodies is rebuilt.
+    """Two overlapping bodies at rest begin no second contact when the set of awake bodies is rebuilt.
 
-    It begins in the first step, in which both bodies are new; later neither of them takes part in a step.
+    One is static, the other kinematic. The overlap begins in the first step, because both bodies are new. In later
+    steps neither of them is awake.
     """
     world = World(RIGID)
     world.add_body(Polygon.box(40, 40), kind="static", sensor=sensor)

@@ -13,10 +13,10 @@ EFFECTS = Effects.rigid_bodies()
 
 
 def is_squeezed(world, moving):
-    """Return whether the disc is squeezed, by a test of all pairs of its contact normals.
+    """Return whether the disc is squeezed, found by a test of all pairs of its contact normals.
 
-    It is squeezed by two opposite normals of contacts deeper than the slop, or by a fast body opposite another contact.
-    moving: ids of the moving walls.
+    Two opposite contacts that are both deeper than the slop squeeze it. A contact with a fast body squeezes it if any
+    other contact is opposite. moving: ids of the moving walls.
     """
     rows, limits, disc = world.contact_rows, world.tolerances.limits, world.bodies["id"][-1]
     rows = rows[(rows["body_a"] == disc) | (rows["body_b"] == disc)]
