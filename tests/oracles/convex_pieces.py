@@ -1,4 +1,7 @@
-"""Numbers of convex pieces by other methods: a search of all cuts, and Hertel and Mehlhorn on a triangulation."""
+"""The number of convex pieces of a polygon, by other methods than that of the engine.
+
+One searches all cuts. The other is the method of Hertel and Mehlhorn on a triangulation.
+"""
 
 from functools import cache
 
@@ -40,9 +43,9 @@ def fewest(corners):
 
 
 def hertel_mehlhorn(outer, holes=()):
-    """Return the number of convex pieces after needless cuts of a constrained Delaunay triangulation are removed.
+    """Return the number of convex pieces that the method of Hertel and Mehlhorn gives.
 
-    This is the method of Hertel and Mehlhorn.
+    It removes needless cuts from a constrained Delaunay triangulation.
     """
     triangles = shapely.constrained_delaunay_triangles(Polygon(outer, holes)).geoms
     pieces = [list(shapely.normalize(each).exterior.coords)[:-1] for each in triangles]

@@ -42,8 +42,9 @@ def area_of(pieces, pose=(0.0, 0.0, 0.0)):
 
 
 def loop_of(rng, links, size, concave):
-    """Return the corners of a random simple loop, clockwise on the screen. concave: True gives it a corner that turns
-    inwards.
+    """Return the corners of a random simple loop, clockwise on the screen.
+
+    concave: True gives it random radii, so that corners may turn inwards.
     """
     while True:
         angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, links))
@@ -58,10 +59,10 @@ def loop_of(rng, links, size, concave):
 
 
 def island(points):
-    """Return a closed chain around a solid island."""
+    """Return a chain along a closed loop whose inside is solid. points: corners, clockwise on the screen."""
     return Chain([tuple(each) for each in points], loop=True)
 
 
 def room(points):
-    """Return a closed chain of the same loop with the solid outside: a room."""
+    """Return a chain along a closed loop whose outside is solid. points: corners, clockwise on the screen."""
     return Chain([tuple(each) for each in points[::-1]], loop=True)

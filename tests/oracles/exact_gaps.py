@@ -23,10 +23,10 @@ def sign_of_gap(a, b):
 
 
 def gaps_on_a_lattice(a, b):
-    """Return (n,) gaps of pairs of outlines: for each pair the widest gap over the normals of all faces.
+    """Return (n,) gaps of n pairs of outlines: for each pair, the widest gap along the normal of any face.
 
     a, b: (n, m, 2) int64 corners, clockwise on the screen. Every intermediate number is an integer below 2^62, so the
-    sign is exact; the gap is a float in units of the lattice.
+    sign is exact. The gap is a float in units of the lattice.
     """
     widest = np.full(len(a), -np.inf)
     for one, other in ((a, b), (b, a)):

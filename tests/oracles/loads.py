@@ -1,4 +1,4 @@
-"""Reference for the contacts whose cached forces are cleared when bodies are removed: a search over all contacts."""
+"""The contacts whose cached forces must be cleared when bodies are removed, found by a search over all contacts."""
 
 import math
 
@@ -11,9 +11,11 @@ FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_
 
 
 def forget_loads(world, ids):
-    """Clear the cached forces below bodies that are removed together, where they exceeded those of an impact.
+    """Clear the cached forces of all contacts in a pile from which a heavy load is removed.
 
-    ids: ids of the removed bodies.
+    ids: ids of the removed bodies. A removed body is a heavy load if its contact force accelerates the body below by
+    more than BLOW times gravity. The pile consists of that body and all others that it touches, directly or through
+    others, up to static bodies.
     """
     contacts, bodies = world.contact_rows, world.bodies
     ids_a, ids_b = contacts["body_a"], contacts["body_b"]

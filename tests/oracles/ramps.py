@@ -20,6 +20,6 @@ def resting_y(points, radius, x, slope, through=(0.0, 0.0)):
 
 
 def slide(slope, way):
-    """Return the displacement (x, down) [px] along a slope that a motion of `way` [px] straight down is turned into."""
+    """Return the projection (x, down) [px] of a motion straight down on a slope. way: length of the motion [px]."""
     angle = math.atan(slope)
     return -way * math.sin(angle) * math.cos(angle), way * math.sin(angle) ** 2

@@ -1,7 +1,7 @@
 """Bounds on the distance of many pairs of rounded convex outlines at once, without a distance algorithm.
 
-The lower bound is the best of many separating axes, the upper bound a distance of points on both outlines. The arrays
-run over the pairs; nothing is imported from physics.
+The lower bound is the greatest gap along many separating axes. The upper bound is the distance of a point on one
+outline from a point on the other. The arrays have one row for each pair. Nothing is imported from physics.
 """
 
 from typing import NamedTuple
@@ -76,9 +76,9 @@ def distance_to_core(hulls, points):
 
 
 def _nearest(corners, points):
-    """Return (points, edge points), (n, 2) each: the point nearest to an outline, and the nearest point on its edges.
+    """Return (points, edge points), both (n, 2): the given point nearest to each outline, and its nearest edge point.
 
-    corners (n, m, 2): corners of the outlines. points (n, k, 2): the points to compare.
+    corners (n, m, 2): corners of n outlines. points (n, k, 2): k points for each outline.
     """
     edges = np.roll(corners, -1, axis=1) - corners
     square = (edges * edges).sum(axis=2)

@@ -25,9 +25,9 @@ def at(union, pose):
 
 
 def touching(a, b, angle, direction):
-    """Return the pose (x, y, angle) at which b, moved from outside towards the middle of a, first touches a.
+    """Return the pose (x, y, angle) at which b first touches a, when it is moved from outside towards the middle of a.
 
-    angle: rotation of b [rad]; direction: direction from a in which b starts [rad]. If b passes a without a touch, the
+    angle: rotation of b [rad]. direction: direction from a in which b starts [rad]. If b passes a without a touch, the
     pose lies beyond the middle of a.
     """
     turned = at(b, (0.0, 0.0, angle))

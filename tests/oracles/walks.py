@@ -2,7 +2,10 @@
 
 
 def inside_ground(solid, slopes, size, left, top, width, height):
-    """Return whether the box shares area with a solid tile, or one of its columns reaches below a slope's surface."""
+    """Return whether a box of whole pixels is inside tile ground.
+
+    It is if it shares area with a solid tile, or if one of its columns reaches below the surface of a slope.
+    """
     for j in range(len(solid)):
         for i in range(len(solid[j])):
             x, y = i * size, j * size

@@ -1,5 +1,6 @@
-"""Body values that can be read and set: a change acts from the next step on, as if the body had been added with the
-value.
+"""Values of a body that can be read and set.
+
+A change takes effect in the next step, as if the body had been added with the new value.
 """
 
 import math

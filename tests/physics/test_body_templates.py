@@ -1,4 +1,7 @@
-"""A body with the shapes and values of an earlier one gets copies of its table rows, equal to computed rows."""
+"""A body whose shapes and values equal those of an earlier body gets copies of that body's table rows.
+
+The copies equal the rows that would be computed.
+"""
 
 import copy
 
@@ -82,8 +85,9 @@ def test_the_same_rows_as_computed(effects, seed):
 
 
 def test_wrong_values_are_refused_though_their_equals_are_known():
-    """A wrong value is refused even if it equals a known one, as True equals 1.0: only values of the right type use a
-    template.
+    """A value of the wrong type is refused even if an earlier body had an equal value of the right type.
+
+    For example, True equals 1.0 but is no valid mass.
     """
     world = World(RIGID)
     for _ in range(3):

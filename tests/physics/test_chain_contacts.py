@@ -1,4 +1,7 @@
-"""Chain contacts: one-sided, with ghost vertices, without seams, compared with the distance from the chain's line."""
+"""Contacts of chains: they are one-sided, use ghost vertices and feel no seams.
+
+They are compared with the distance from the chain's line.
+"""
 
 import math
 

@@ -78,7 +78,11 @@ def test_tiles_and_masks_are_walked_like_them(shape):
 
 @pytest.mark.parametrize("width", [4, 10, 14])
 def test_slope_of_tiles_is_told_by_the_middle_of_the_feet_and_by_a_foot_at_their_ends(width):
-    """The slope reported on a hill of two sloped tiles follows from the columns under the feet, at every position."""
+    """The slope reported on two sloped tiles that form a hill is the one of a tile under the feet.
+
+    The tile under the middle of the feet comes first, then the tiles under their two ends. The character walks over the
+    hill pixel by pixel.
+    """
     solid = np.zeros((3, 7), bool)
     solid[2] = solid[1, 3] = True
     world = World(PLAIN)

@@ -1,4 +1,7 @@
-"""Contact colours are reused while the contact graph is unchanged, and always equal those of a new colouring."""
+"""Contact colours are reused while the contact graph is unchanged.
+
+They always equal those of a new colouring.
+"""
 
 import numpy as np
 import pytest

@@ -1,6 +1,6 @@
-"""Contacts keep their row in the table while the same shapes touch, and are copied when another contact begins or ends.
+"""Contacts keep their row in the table while the same shapes touch.
 
-The motion of a pile must not depend on it.
+They are copied to other rows when a contact begins or ends. The motion of a pile must not depend on it.
 """
 
 import numpy as np
@@ -23,7 +23,10 @@ STACKING = Effects.rigid_bodies().with_(sleeping=False)
 
 
 def pile(solver, shapes):
-    """Return (world, rows of a heap on a floor, a box far away above a floor of its own)."""
+    """Return (world, rows of a heap with its floor, box), where the box is far away above another floor.
+
+    rows: slice of the table of bodies.
+    """
     world = World(STACKING, solver=solver, substeps=4)
     world.add_body(Polygon.box(800, 40), kind="static", position=(0, 20))
     random = np.random.default_rng(5)

@@ -119,9 +119,9 @@ def test_undeclared_continuous_lets_all_through_as_off_does():
 
 
 def test_discrete_miss_rate_is_one_minus_reach_over_step():
-    """Without sweeps, discs of radius r miss walls of width w at a rate of 1 - (w + 2r)/(v dt); with sweeps none does.
+    """Discs of radius r that are not swept miss a wall of width w with a probability of 1 - (w + 2 r) / (v dt).
 
-    The phases of the steps are random.
+    The phases of the steps are random. Swept discs never miss.
     """
     count = 4000 if JIT else 300
     rng = np.random.default_rng(8)

@@ -95,9 +95,9 @@ def test_a_torque_on_one_gear_speeds_up_both(side, ratio, setting):
 @pytest.mark.parametrize("angle", [0.0, 0.6, math.pi / 2, 2.0])
 @pytest.mark.parametrize("radius", [10.0, 40.0])
 def test_a_rack_falls_against_its_pinion(radius, angle, setting):
-    """A rack falls against its pinion with an acceleration of g sin / (1 + I / (m r²)).
+    """A rack falls against its pinion with an acceleration of g sin / (1 + I / (m r²)), where sin is that of the slope.
 
-    The gear carries the rest of the rack's weight.
+    The gear's force is the mass of the rack times the difference between g sin and this acceleration.
     """
     world = world_of(setting)
     pinion, hinge = wheel(world, 0.0, radius=20.0)

@@ -13,7 +13,7 @@ EFFECTS = Effects.rigid_bodies().with_(sleeping=False)
 def plank(density, x, **settings):
     """Return a world with a plank (10 m by 0.1 m) on two posts and a box of 1 m on it.
 
-    density, x: of the box; x in metres from the middle.
+    density: density of the box. x: position of the box from the middle of the plank [m].
     """
     world = World(EFFECTS, **settings)
     world.add_body(Polygon.box(8000, 40), position=(0, 20), kind="static")

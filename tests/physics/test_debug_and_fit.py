@@ -1,4 +1,4 @@
-"""Debug overlays, tier shapes and the warm-up, compared with simple loops and geometry."""
+"""Debug overlays, the replacement shapes of masks, and the warm-up, compared with simple loops and geometry."""
 
 import math
 

@@ -205,8 +205,9 @@ def test_boxes_that_share_an_edge():
 
 @pytest.mark.parametrize("edge", [84.0, 500.0])
 def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
-    """The two reported points stay on long shapes: an edge of 84 at a depth of 0.05, and a ratio of 1e4 : 1
-    (docs/stability.md, C10).
+    """The two reported points lie on the surfaces of long shapes (docs/stability.md, C10).
+
+    A box overlaps a slab with edges of 84 or 500 by 0.05, at several positions along it.
     """
     slab, box = Polygon.box(edge, 1.0), Polygon.box(2.0, 2.0)
     for x in np.linspace(-0.45 * edge, 0.45 * edge, 13):
@@ -302,10 +303,9 @@ def pose_of(kind, rng, reach, whole):
 @pytest.mark.parametrize("kind_a", KINDS)
 @pytest.mark.parametrize("kind_b", KINDS)
 def test_distance_is_not_positive_exactly_where_collide_finds_a_contact(kind_a, kind_b):
-    """The distance is at most 0 exactly where collide finds a contact, and then equals its depth, for all kinds (U10,
-    U7).
+    """The distance is at most 0 exactly where collide() finds a contact, for all kinds of shapes (U10, U7).
 
-    Coordinates are integers, where touching is common.
+    It is then minus the depth of the contact. The coordinates are integers, so that many pairs just touch.
     """
     rng = np.random.default_rng([KINDS.index(kind_a), KINDS.index(kind_b)])
     for k in range(20 if JIT else 4):

@@ -70,8 +70,8 @@ def test_an_eccentric_disc_keeps_its_energy_for_a_minute_and_never_gains(offset,
 def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
     """A disc in a bowl of links gains no energy.
 
-    It loses sin²δ of its kinetic energy at each inelastic corner of angle δ, and besides at most 5 % of its start
-    energy.
+    At each inelastic corner of angle δ it loses sin²δ of its kinetic energy. In addition it loses at most 5 % of its
+    energy at the start.
     """
     world, body, height = bowl(links, radius, start, substeps=substeps)
     found = energies(world, body, height, 3600)
@@ -220,7 +220,7 @@ def test_what_slides_on_ice_keeps_its_speed_while_it_lands(shape, height, settin
 
 
 def mechanical_energy(world):
-    """Return the kinetic energy of all bodies plus the potential energy of the dynamic ones above y = 200."""
+    """Return the kinetic plus potential energy of all dynamic bodies; the potential energy is 0 at y = 200."""
     b = world.bodies[1:]
     b = b[b["inverse_mass"] > 0.0]
     kinetic = b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2) + b["inertia"] * b["angular_velocity"] ** 2

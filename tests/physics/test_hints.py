@@ -1,7 +1,7 @@
-"""Errors of every public callable for typical mistakes: the message names the argument and the correct expression.
+"""Errors of every public callable for typical mistakes name the argument and the correct expression.
 
-The mistakes: a pygame object, a value of another argument, a number instead of a Material or Filter, a misspelt word, a
-class instead of an instance, a keyword of another engine. The world is unchanged after each error.
+The mistakes are a pygame object, a value of another argument, a number instead of a Material or Filter, a misspelt
+word, a class instead of an instance, and a keyword of another engine. Each error leaves the world unchanged.
 """
 
 import dataclasses

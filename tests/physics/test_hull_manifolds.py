@@ -147,8 +147,9 @@ def test_boxes_far_away_have_the_same_manifold():
 )
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
-    """Nearly parallel sides keep two points and constant features, for tilts of 1e-12 to 1e-3 and an overhang on either
-    side (docs/stability.md, B2).
+    """Nearly parallel sides keep two points and constant features (docs/stability.md, B2).
+
+    The tilts are 1e-12 to 1e-3; either side may overhang the other.
     """
     thick = 2 * shape.min_half_extent
     for shift in (0.0, 3.0, -3.0):
@@ -195,7 +196,7 @@ def test_centres_on_cores_have_their_documented_way_out():
 def test_lines_end_to_end_touch_only_where_they_meet():
     """Collinear segments collide only where they touch (docs/stability.md, B9, B11).
 
-    The axis across the segments shows no gap along their line.
+    A separating-axis test across the segments alone would not see a gap along their common line.
     """
     line = Segment((0, 0), (10, 0))
     for angle in (0.0, 0.3, 1.0, math.pi / 2):

@@ -1,4 +1,7 @@
-"""Loops, limits and motors of joint trees are solved exactly: gaps, angles and forces over sizes, masses, substeps."""
+"""Loops, limits and motors of joint trees are solved exactly, for many sizes, masses and substeps.
+
+The tests check gaps, angles and forces.
+"""
 
 import math
 from typing import Any

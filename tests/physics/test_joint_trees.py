@@ -73,8 +73,8 @@ class Joints:
     def solve(self, forest=None):
         """Solve the system and return it.
 
-        Sets `taken`, `redundant`, `impulses` (joints, MOST_ROWS) and `after`, the MOTION rows. forest: workspace, None
-        for a new one.
+        The results are `taken`, `redundant`, `impulses` (joints, MOST_ROWS), and `after`, the bodies as MOTION rows.
+        forest: workspace, None for a new one.
         """
         self.joint_rows = np.array(self.rows, JOINT_ROW) if self.rows else np.zeros(0, JOINT_ROW)
         a, b = np.array(self.a, np.int32), np.array(self.b, np.int32)

@@ -1,4 +1,7 @@
-"""collide() and distance() cache the tables of recent pairs; the results equal those of new tables."""
+"""collide() and distance() keep the tables of recent pairs and use them again.
+
+The results equal those with new tables.
+"""
 
 import gc
 import math

@@ -1,4 +1,7 @@
-"""Compiled kernels are cached under a key of all that they depend on, and linked by symbols made from the same key."""
+"""Compiled kernels are cached under a key that is computed from everything they depend on.
+
+The symbols by which they are linked are made from the same key.
+"""
 
 import json
 import os

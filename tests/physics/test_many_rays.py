@@ -1,4 +1,7 @@
-"""ray_casts and query_points: equal to single queries and closed forms, with the arguments that every query accepts."""
+"""ray_casts and query_points, compared with single queries and with closed forms.
+
+They take the same arguments as the other queries.
+"""
 
 import math
 
@@ -71,7 +74,10 @@ def rays(seed, count=RAYS):
 
 
 def row_of(hit, origin, way):
-    """Return the row of ray_casts that corresponds to a RayHit, or to None for a miss. way: translation of the ray."""
+    """Return the row that ray_casts should return for a ray with this result of ray_cast.
+
+    hit: a RayHit, or None for a miss. way: translation of the ray.
+    """
     if hit is None:
         return (-1, -1, origin[0] + way[0], origin[1] + way[1], 0.0, 0.0, 1.0)
     return (hit.body.id, hit.shape, *hit.point, *hit.normal, hit.fraction)
@@ -166,7 +172,10 @@ def test_many_points_are_each_of_them(effects, sensors):
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("broadphase", BROADPHASES)
 def test_discs_in_closed_form(broadphase, seed):
-    """Rays at discs return the least root of |o + f d - c|² = r² over all discs, and 0 if they start inside one."""
+    """The fraction f of a ray's hit on discs is the least root of |o + f d - c|² = r² over all discs.
+
+    It is 0 if the ray starts inside a disc.
+    """
     rng = np.random.default_rng(seed)
     centers, radii = rng.uniform(-500, 500, (400, 2)), 4.0
     world = World(Effects.detection(), broadphase)

@@ -42,7 +42,7 @@ HULLS = {
 
 
 def parts_of(shape):
-    """Return (corners, radius) of a shape's convex parts."""
+    """Return a list of (corners, rounding radius), one for each convex part of a shape."""
     shapes = [part.shape for part in outline_of(shape)] if isinstance(shape, PixelMask) else [shape]
     return [((s.center,) if isinstance(s, Circle) else s.points, getattr(s, "radius", 0.0)) for s in shapes]
 

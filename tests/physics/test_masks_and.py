@@ -17,7 +17,7 @@ def at(mask, left, top):
 
 
 def check_pair(a, a_left, a_top, b, b_left, b_top):
-    """Compare all results of collide() for two bitmaps with a double loop. Returns whether they overlap."""
+    """Compare all results of collide() for two bitmaps with a double loop. Return whether the bitmaps overlap."""
     mask_a, mask_b = PixelMask(a), PixelMask(b)
     shared = shared_pixels(a.tolist(), a_left, a_top, b.tolist(), b_left, b_top)
     found = collide(mask_a, at(mask_a, a_left, a_top), mask_b, at(mask_b, b_left, b_top))

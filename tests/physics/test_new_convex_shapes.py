@@ -1,5 +1,6 @@
-"""A new convex shape type equals, to the bit, the built-in one: with one corner a circle, with two a capsule or
-segment.
+"""A new type of convex shape behaves, to the bit, as the built-in shape with the same corners and radius.
+
+With one corner it equals a circle, with two a capsule or a segment.
 """
 
 from dataclasses import dataclass
@@ -84,7 +85,10 @@ TWINS = {
 
 @pytest.fixture(params=TWINS)
 def twins(request, monkeypatch):
-    """Yield (a shape of a new type, an equal one of a built-in type) while the new types are in the list SHAPES."""
+    """Yield (a shape of a new type, an equal shape of a built-in type).
+
+    The list SHAPES contains the new types during the test.
+    """
     SHAPES.extend((Coin, Pill, Wire))
     yield TWINS[request.param]
     del SHAPES[-3:]

@@ -28,7 +28,7 @@ def plank(width=64, height=8, **values):
 
 
 def arched(width=160, height=40, **values):
-    """Return a one-way mask of a sagging bridge, 6 px thick, whose ends are at the left and right side."""
+    """Return a one-way mask of a sagging bridge, 6 px thick, from the left edge of the mask to its right edge."""
     x = np.arange(width)
     top = np.round(4.0 + 14.0 * np.sin(np.pi * (x + 0.5) / width)).astype(int)
     rows = np.arange(height)[:, None]

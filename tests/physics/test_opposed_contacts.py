@@ -96,7 +96,7 @@ def press(shape, speed, count, **settings):
 @pytest.mark.parametrize("settings", SETTINGS, ids=["auto", "4"])
 @pytest.mark.parametrize("scene", [door, block, press])
 def test_a_crate_between_parallel_faces_is_no_faster_than_they_are(scene, settings):
-    """Crates between parallel faces are no faster than the faces plus the push-out speed and a fall.
+    """Crates between parallel faces are at most as fast as the faces, plus the push-out speed and the speed of a fall.
 
     The faces move at 20 to 1,000 px/s; one to five crates are between them.
     """
@@ -112,9 +112,10 @@ def test_a_crate_between_parallel_faces_is_no_faster_than_they_are(scene, settin
 @pytest.mark.parametrize("scene", [door, block, press])
 @pytest.mark.parametrize("name", ["disc", "mask", "wedge", "rounded"])
 def test_other_shapes_in_a_press_get_no_more_energy_than_it_does_work(name, scene, settings):
-    """Other shapes in a press reach at most three times the speed of the faces plus the push-out speed and a fall.
+    """Bodies of other shapes between two moving faces reach at most three times the speed of the faces.
 
-    A body that slips out between two faces may be faster than they are.
+    The push-out speed and the speed of a fall come on top. A body that slips out from between the faces may be faster
+    than they are.
     """
     for speed in (60, 240, 700):
         for count in (1, 2, 3):

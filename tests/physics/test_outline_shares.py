@@ -38,7 +38,10 @@ def region_of(solid):
 
 
 def pair_of(first, second, u, v, angle):
-    """Return the SquaresPair of two arrays of pixels, the second turned about its top left corner at (u, v) [px]."""
+    """Return the `SquaresPair` of two arrays of pixels.
+
+    The second has its top left corner at (u, v) [px] and is rotated about it by `angle`.
+    """
     library = Library()
     masks = [library.add(PixelMask.from_array(each, snap=False))[1] for each in (first, second)]
     frame, other = (int(library.raster_of[mask, 0]) for mask in masks)

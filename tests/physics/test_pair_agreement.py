@@ -42,7 +42,10 @@ STILL = (0.0, 0.0, 0.0)
 
 
 def poses(seed, count, spread=9.0):
-    """Yield random poses of pairs of which about half overlap: (pose of A, offset of B (2,), angle of B)."""
+    """Yield random poses of two shapes: (pose of A, offset of B from A (2,), angle of B).
+
+    About half of the pairs overlap.
+    """
     rng = np.random.default_rng(seed)
     for _ in range(count):
         yield (

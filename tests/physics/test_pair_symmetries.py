@@ -23,9 +23,9 @@ pairs = pytest.mark.parametrize("a, b", [(a, b) for a in KINDS for b in KINDS])
 
 
 def poses(seed, count=15):
-    """Yield lists [start of A, end of A, start of B, end of B] of poses. About half of the pairs overlap at the start.
+    """Yield lists of four poses: start of A, end of A, start of B, end of B.
 
-    Positions are multiples of 2^-20 px.
+    About half of the pairs overlap at the start. Positions are multiples of 2^-20 px.
     """
     rng = np.random.default_rng(seed)
     for _ in range(count):

@@ -13,7 +13,7 @@ from physics.jit.plain import view_of
 
 
 def _tables():
-    """Return {name: dtype} of every row type in the modules of physics whose columns are all numeric."""
+    """Return {name: dtype} of the row types in the modules of physics that have only numeric columns."""
     found = {}
     for module in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}."):
         if module.name.startswith(f"{physics.__name__}.jit"):

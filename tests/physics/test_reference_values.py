@@ -188,9 +188,9 @@ def test_oblique_equal_discs_leave_at_right_angles(solver, offset):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("dt", [1 / 60, 1e-4])
 def test_off_centre_hit_spins_in_closed_form(solver, dt):
-    """An off-centre hit of a box spins it as in closed form: J 1.511125, v' -1.488875, spin 3.662723.
+    """A box that is hit off its centre gets the closed-form values: J 1.511125, v' -1.488875, spin 3.662723.
 
-    The box is 2 x 0.2 at 30 degrees, with v 3, e 0.5, m 1.
+    The box is 2 x 0.2 at 30 degrees, with v 3, e 0.5 and m 1.
     """
     world = metres(solver, gravity=(0, 0), effects=pile_effects(friction=False), dt=dt)
     floor(world)
@@ -301,9 +301,9 @@ def test_box_on_a_plate_that_turns_tips_at_width_over_height(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hoop", [False, True])
 def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
-    """A disc rolls down a slope with a = 2/3 g sin if mu >= tan / 3, a hoop with 1/2 g sin if mu >= tan / 2.
+    """A disc rolls down a slope with a = 2/3 g sin if mu >= tan / 3; a hoop with a = 1/2 g sin if mu >= tan / 2.
 
-    With less friction they slip.
+    sin and tan are those of the slope. With less friction they slip.
     """
     angle, radius = 0.4, 0.5
     mass, share = math.pi * radius**2, 2.0 if hoop else 3.0
@@ -321,7 +321,10 @@ def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_sliding_disc_rolls_after_two_thirds(solver):
-    """A disc that slides at 5 m/s with mu 0.3 rolls after 0.5556 s and 2.3148 m, at 3.3333 m/s."""
+    """A disc that slides at 5 m/s with mu = 0.3 begins to roll after 0.5556 s and 2.3148 m.
+
+    It then has two thirds of its speed, 3.3333 m/s.
+    """
     world = metres(solver)
     floor(world, friction=0.3)
     disc = world.add_body(Circle(0.5), position=(0.0, -0.5), velocity=(5.0, 0.0), material=Material(friction=0.3))

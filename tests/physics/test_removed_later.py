@@ -59,7 +59,7 @@ def test_the_same_as_if_rows_were_dropped_at_once(effects, seed):
 @pytest.mark.parametrize("size", [1, 2, 5])
 @pytest.mark.parametrize("seed", range(8))
 def test_the_loads_of_bodies_are_released_as_by_a_search(seed, size):
-    """Removing several bodies at once clears the cached forces that a search among all contacts finds."""
+    """The removal of several bodies at once clears exactly the cached forces that a search over all contacts finds."""
     rng, world = np.random.default_rng(seed), World(RIGID)
     world.add_body(Polygon.box(900, 20), kind="static", position=(0, 10))
     for stack in range(5):

@@ -1,7 +1,8 @@
-"""Sensors report the overlaps at the final poses of each step, for each solver, kind of shape, snapping and role.
+"""Sensors report the overlaps at the final poses of each step.
 
-The reference is `collide`, which needs no world, step or broad phase; `world.overlap` is compared with it, too. A pair
-met by a sweep may be reported as well, if the shapes meet on one of the swept paths.
+All solvers, kinds of shapes, kinds of bodies, and snapped and exact masks are tested. The reference is `collide`, which
+needs no world, step or broad phase. `world.overlap` is compared with it, too. A pair that a sweep met may be reported
+as well, if the shapes meet on one of the swept paths.
 """
 
 import itertools

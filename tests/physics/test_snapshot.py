@@ -187,9 +187,9 @@ def test_cut_and_flipped_files_are_refused_or_whole(tmp_path):
 
 @pytest.mark.parametrize("method", [1, 8, 12, 14, 93])
 def test_files_that_name_another_compression_are_refused_or_whole(tmp_path, method):
-    """A snapshot file with a changed compression method is refused, or loads correctly.
+    """A snapshot file that names another compression method is refused with an error that names the file.
 
-    Zip files name the method in two bytes of each entry, and other decompressors raise errors of their own.
+    Zip files name the method in two bytes of each entry. Other decompressors raise errors of their own.
     """
     path = saved(tmp_path)
     content = path.read_bytes()

@@ -39,7 +39,7 @@ def is_squeezed(world, moving):
 def test_faces_leave_room_or_not_as_all_their_pairs_say(degrees, share, speed, order, substeps):
     """A disc between two walls is reported as squeezed exactly if a test of all pairs of its contacts says so.
 
-    share: overlap with the walls as a share of its radius; the second wall may move.
+    share: overlap of each wall with the disc, divided by the disc's radius. speed: speed of the second wall [px/s].
     """
     world, radius, moving = World(EFFECTS, substeps=substeps), 16.0, []
     for side in (-0.5, 0.5):

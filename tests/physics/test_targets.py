@@ -1,5 +1,6 @@
-"""set_target: a kinematic body reaches its target exactly at the end of the next step, carries
-its riders, then rests.
+"""A kinematic body with set_target reaches its target exactly at the end of the next step, then rests.
+
+It carries the bodies on it.
 """
 
 import copy

@@ -46,8 +46,9 @@ def test_disc_to_the_corner_of_a_box(angle):
 
 
 def test_box_and_segment():
-    """A box that moves onto a segment hits it exactly at fraction 0.5, without a tolerance of the slop
-    (docs/stability.md, G20).
+    """A box that moves onto a segment hits it exactly at fraction 0.5 (docs/stability.md, G20).
+
+    The slop is not subtracted from the distance.
     """
     found = time_of_impact(BOX, ORIGIN, ORIGIN, Segment((0, -1), (0, 1)), (2, 0, 0), ORIGIN)
     assert found.fraction == pytest.approx(0.5, abs=1e-12) and found.normal == (1.0, 0.0) and found.point[0] == 1.0
@@ -221,9 +222,9 @@ def sweep(sweep_inout):
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
-    """Return (fraction, normal x, normal y, id of the tile or link) of the first impact of a mover with another shape.
+    """Return (fraction, normal x, normal y, id of the tile or link) of the first impact in the sweep of a world.
 
-    It uses the world's sweep. motion: start pose and end pose of the mover in one tuple; motion_b: those of the other
+    motion: (x, y, angle) of the mover at the start, then at the end, in one tuple. motion_b: the same of the other
     shape.
     """
     library, bodies, shapes, work = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE), np.zeros(len(COUNTERS), np.int64)
@@ -261,8 +262,9 @@ FLOOR = Chain([(16.0 * k, 0.0) for k in range(41)])
 )
 @pytest.mark.parametrize("sunk", [-0.1, 0.0, 0.1])
 def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
-    """A body that slides along ground in pieces is not stopped by a seam, touching or sunk by less than the slop (G5,
-    E4).
+    """A body that slides along ground in pieces is not stopped by a seam (docs/stability.md, G5, E4).
+
+    It touches the ground, or overlaps it by less than the slop.
     """
     for end in (90.0, 600.0):
         assert swept(mover, (20, -5 + sunk, 0, end, -5 + sunk, 0), ground)[0] > 1.0
@@ -272,8 +274,9 @@ def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
 @pytest.mark.parametrize("ground", [TILES, FLOOR], ids=["tiles", "chain"])
 @pytest.mark.parametrize("angle", [0.0, 1.0, 20.0])
 def test_what_rests_on_the_ground_does_not_go_through_it(ground, angle):
-    """A body in contact at the start that is thrown into the ground at any slant is stopped, at the latest by its core
-    (docs/stability.md, E9).
+    """A body that rests on the ground and is thrown into it at any slant is stopped (docs/stability.md, E9).
+
+    It is stopped before its centre is below the surface.
     """
     box = Polygon.box(10, 10)
     for x in (20.0, 40.0, 90.0, 300.0):

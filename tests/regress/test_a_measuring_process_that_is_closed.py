@@ -1,5 +1,6 @@
-"""The reader of the measuring process reports the end if its pipe is closed while it reads, instead of raising an
-error.
+"""The thread that reads from the measuring process reports its end if the pipe is closed during a read.
+
+Before the fix it raised an error.
 """
 
 import os

@@ -1,5 +1,4 @@
-"""Worlds without a narrow phase treat sensors and sleeping bodies correctly; before the fix they reported sensors as
-solids.
+"""Worlds without a narrow phase treat sensors correctly; before the fix they reported sensors as solid bodies.
 
 They also reported sleeping bodies as awake.
 """
@@ -32,7 +31,8 @@ def test_sensors_push_nobody_without_a_narrow_phase():
 def test_pair_that_falls_asleep_begins_once(narrowphase):
     """A pair that falls asleep has one begin event.
 
-    A standing character is awake but wakes no body: a body on it sleeps and is not reported again.
+    The pair is a character and a plank on it. The character is awake but wakes no body, so the plank sleeps and is not
+    reported again.
     """
     world = World(PILES.with_(narrowphase=narrowphase))
     plank = world.add_body(Polygon.box(172.0, 2.0))

@@ -14,7 +14,7 @@ SHAPES = (
 
 
 def box_of(shape, pose):
-    """Return (polygon, pose) of the AABB of a shape at a pose, read from the table of a world with this shape only."""
+    """Return (polygon, pose) of the AABB of a shape at a pose, as it is in the table of shapes of a world."""
     world = World(Effects())
     world.add_body(Bounds(shape), position=pose[:2], angle=pose[2])
     world.step()

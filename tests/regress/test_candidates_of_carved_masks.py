@@ -1,6 +1,6 @@
 """A pair with a carved mask is a candidate once; before the fix it was listed twice.
 
-The rows of a carved mask's new parts follow those of shapes that were added later.
+Carving adds rows for the new parts of the mask behind the rows of shapes that were added later.
 """
 
 import numpy as np

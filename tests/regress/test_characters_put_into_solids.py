@@ -65,8 +65,9 @@ def test_stays_where_nothing_is_free_within_its_own_size():
 
 
 def test_does_not_leave_one_solid_for_another_or_for_another_character():
-    """A character between two walls leaves upwards, because the nearer way to the right ends in a third wall or a
-    character.
+    """A character inside a solid does not move out into another solid or into another character.
+
+    The nearest way out, to the right, is closed by a wall. In the second case another character stands on the way up.
     """
     world = room((Polygon.box(20, 30), (0, 0)), (Polygon.box(20, 400), (26, 0)))
     hero = Character(world, HERO, (9, -14))
@@ -84,7 +85,7 @@ def test_does_not_leave_one_solid_for_another_or_for_another_character():
 
 
 def test_from_behind_a_chain_and_inside_a_one_way_tile_it_goes_where_it_is_told():
-    """A character behind a chain or inside a one-way tile is free, because both are open from that side."""
+    """A character behind a chain or inside a one-way tile is not moved out; both stop bodies from one side only."""
     world = World(Effects(response=True, one_way=True), gravity=(0, 0))
     world.add_body(Chain([(-100, 0), (100, 0)]), kind="static")
     hero = Character(world, HERO, (0, 12))

@@ -37,8 +37,9 @@ def detected(world, contact, margin=40.0):
 
 
 def motion(world, contact):
-    """Return the relative motion of the two bodies at a contact in the last step [px], including rotation at their
-    arms.
+    """Return how far the two bodies of a contact have moved relative to each other in the last step [px].
+
+    The motion of a dynamic body's farthest point by rotation is added.
     """
     total = np.zeros(2)
     turns = 0.0
@@ -56,8 +57,8 @@ def motion(world, contact):
 def test_they_are_what_a_look_at_the_final_poses_finds(solver, shapes, ground):
     """Reported contacts equal those computed at the final poses.
 
-    A point matched by its feature may differ by the second order of the motion. It may differ by the first order if a
-    corner left or reached a face in this step.
+    A point with the same feature may differ by the square of the motion in this step. It may differ by the motion
+    itself if a corner has left or reached a face in this step.
     """
     world = world_for(solver, FULL.with_(continuous=False))
     shape, place = GROUNDS[ground]()

@@ -1,4 +1,4 @@
-"""Bodies that start at one position separate at the push-out speed per body, whatever the number of contacts."""
+"""Bodies that start at one position separate no faster than the push-out speed, whatever the number of contacts."""
 
 import numpy as np
 import pytest
@@ -55,7 +55,8 @@ def test_a_crowd_gets_apart(solver):
 def test_discs_without_bounce_stay_together(solver, speed):
     """Discs without restitution stay together after an impact.
 
-    They separate at no more than one hundredth of the speed, or at four slops in ten steps.
+    They may separate at a hundredth of the speed of the impact, or at the speed of four slops in ten steps if that is
+    more.
     """
     world = still_world(solver)
     a = world.add_body(Circle(8.0), position=(-40.0, 0.0), velocity=(0.5 * speed, 0.0))

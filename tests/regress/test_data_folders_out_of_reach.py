@@ -1,4 +1,7 @@
-"""A data folder that is unreadable or has an invalid name gives a message at the start and in menus, no traceback."""
+"""A data folder that cannot be read or has an invalid name gives a message, no traceback.
+
+The message is shown at the start and in the menus.
+"""
 
 from pathlib import Path
 

@@ -1,7 +1,7 @@
 """A disc that rolls around a corner stays on the next face; before the fix it sank into it by up to its own size.
 
-Its manifold was recycled as long as it had not rotated since the last step, so the disc was still pushed along the line
-to the corner.
+A manifold was recycled as long as it had not rotated since the last step. It kept the old normal, so the disc was
+pushed along the line to the corner instead of off the face.
 """
 
 import pytest

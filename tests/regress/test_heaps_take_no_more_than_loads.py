@@ -1,7 +1,7 @@
-"""A heap takes no more substeps than its loads need; the tumbler once took 128 in every step, which cost 3.6 times as
-much time as four substeps.
+"""A heap takes no more substeps than its loads need.
 
-Extra substeps are only for columns, whose bodies have one body below and one above.
+The tumbler once took 128 in every step, which cost 3.6 times as much time as four substeps. Extra substeps are only for
+columns, in which every body has one body below and one above.
 """
 
 from scenes.lab.tumbler import Tumbler

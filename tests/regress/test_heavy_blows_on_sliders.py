@@ -1,7 +1,7 @@
-"""A heavy body that presses on a joint on an axis with long arms does not throw the joined bodies away.
+"""A heavy body that falls on bodies joined by a slider or wheel joint does not throw them away.
 
-Tension raises the inertia of light bodies in joint trees. The arms of a joint on an axis include its translation, and
-its force may press the bodies together. Such a force needs no inertia.
+Tension raises the effective inertia of light bodies in joint trees. The moment arms of such a joint include its
+translation, so they can be long. A force that presses the bodies together needs no added inertia.
 """
 
 import math
@@ -19,7 +19,12 @@ OFFSETS = (-6, 4)  # [px] of the heavy body from the centre of the light one
 
 
 def pressed(kind, anchor, arm, ratio, turned, offset, substeps):
-    """Return (world, the two joined bodies of mass 1); a heavy body falls on the upper one."""
+    """Return (world, a, b): two joined bodies of mass 1, the lower one on a floor; a heavy body falls on the upper one.
+
+    kind: joint, Wheel or Prismatic. anchor: its position between the bodies, from 0 (a) to 1 (b). arm: distance of the
+    bodies [px]. ratio: mass of the heavy body. turned: angle of the axis to the line between the bodies [rad]. offset:
+    distance of the heavy body from the middle of b along x [px].
+    """
     world = World(Effects.rigid_bodies().with_(joints=True))
     world.substeps = substeps
     world.add_body(Polygon.box(4000, 40), position=(0, 20), kind="static")

@@ -1,7 +1,7 @@
 """A body that falls on joined bodies in contact gives them no more energy than it has, in any step.
 
-The energy that an impact takes is lost. Joints must not return it from the reserve of an integrator's errors, and the
-inertia that tension adds must not speed up the common rotation of bodies in the air.
+An impact loses energy, and joints must not return it. Before the fix they returned it as a correction of the
+integrator's errors. Also, the inertia that tension adds sped up the common rotation of bodies in the air.
 """
 
 import random
@@ -55,9 +55,9 @@ def energy(world):
 
 
 def greatest_rise(kind, seed, substeps):
-    """Return the greatest rise of energy in a step, over the kinetic energy before the impact.
+    """Return the greatest rise of energy in a step, divided by the kinetic energy before the impact.
 
-    Two bodies lie on one another on a floor, a third is beside them and joined to both, a fourth falls on them.
+    Two bodies lie on one another on a floor. A third is beside them and joined to both; a fourth falls on them.
     """
     rng = random.Random(seed)
     world = World(Effects.rigid_bodies().with_(joints=True, sleeping=False))

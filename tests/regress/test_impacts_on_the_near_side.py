@@ -32,7 +32,7 @@ CASES = (["ray", "swept", "toi"], WALLS, EFFECTS, BULLETS, [6000.0, 1260.0, 1500
 def test_a_bullet_tells_the_near_side(way, wall, effects, bullet, speed):
     """The reported point of a bullet's impact equals the closed form along the x axis.
 
-    A ray hits with the centre of the body, the other modes hit with its front.
+    A bullet in the mode "ray" hits with its centre, in the other modes with its front.
     """
     told_on_the_near_side(way, wall, effects, bullet, speed)
 

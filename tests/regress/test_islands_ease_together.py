@@ -1,7 +1,7 @@
-"""An island takes fewer substeps when its bodies need fewer; before the fix three crates dropped by 5 cm kept 32 for
-ever.
+"""An island takes fewer substeps when its bodies need fewer; before the fix three crates kept 32 for ever.
 
-The cooldowns of the bodies ended at different times, and each request alone was dropped.
+The crates were dropped by 5 cm. The cooldowns of the bodies ended at different times, and a request by one body alone
+was dropped.
 """
 
 from physics import Polygon

@@ -35,8 +35,8 @@ def test_rows_behind_the_end_of_a_table_are_not_kept():
 def test_a_long_stream_that_changes_a_little_is_kept_as_what_differs():
     """A long stream of bytes that changes a little is stored as its differences.
 
-    zlib looks back somewhat less than 32 kB: with a chunk of that size it never reached the same position in the
-    previous chunk.
+    zlib finds a repetition only within somewhat less than 32 kB. In chunks of 32 kB the same position of the previous
+    chunk would be out of its reach.
     """
     stream = np.random.default_rng(1).integers(0, 255, 100_000, np.uint8)
     chunks, new = Chunks([memoryview(stream.tobytes())], [0]), 0

@@ -32,10 +32,10 @@ def test_a_sprite_keeps_all_angles():
     "solid", [rng.random((23, 31)) < 0.9, np.pad(np.ones((15, 22), bool), 3), rng.random((9, 9)) < 0.2]
 )
 def test_pixels_kept_are_those_covered_most_as_counted_for_every_pixel(solid):
-    """A rotated mask adds or drops only border pixels with the right coverage, compared with a count over all samples.
+    """A rotated mask that needs more pixels to keep its area adds those that the source covers most.
 
-    Among the pixels whose centre is not solid, every one that is added is covered at least as much as every one left
-    out.
+    Candidates are the pixels whose centre is not solid in the rotated source. The coverage is counted over all samples
+    of each pixel.
     """
     origin = (solid.shape[1] / 2, solid.shape[0] / 2)
     for bucket in (1, 7, 16, 43, 100):

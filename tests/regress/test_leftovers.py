@@ -1,4 +1,7 @@
-"""A `*.part` file left by a program that was killed while writing is removed by a later one, and no other file is."""
+"""A `*.part` file of a program that was killed while writing is removed by a later program.
+
+No other file is removed.
+"""
 
 import os
 import subprocess

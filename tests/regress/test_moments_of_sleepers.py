@@ -1,4 +1,7 @@
-"""A snapshot of a sleeping world is stepped asleep; setting its own solver again would wake all bodies."""
+"""A snapshot of a sleeping world is measured asleep, as long as no other solver is chosen.
+
+Before the fix the world's own solver was set again, which woke all bodies.
+"""
 
 from game.measure.moment import Moment
 from physics import Effects, Polygon, World

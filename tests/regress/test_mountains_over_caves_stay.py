@@ -1,6 +1,7 @@
 """The mountain over the cave at the lander's third site stays when the ice that closes the cave is shot away.
 
-With both plugs shot away, as by the bot for three seeds of eight, 900 px of mountain fell on the pad.
+Before the fix 900 px of mountain fell on the pad when both plugs of ice were shot away. The bot did so with three seeds
+of eight.
 """
 
 import pytest

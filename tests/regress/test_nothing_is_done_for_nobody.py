@@ -54,8 +54,9 @@ def test_what_is_done_for_characters_is_there_while_there_is_one(name):
 
 @pytest.mark.parametrize("stacking", [False, True])
 def test_boxes_alone_are_no_narrow_test(stacking):
-    """Without a narrow phase, overlapping boxes are contacts, those with sensors are reported, and no narrow test is
-    counted.
+    """A world without a narrow phase reports overlapping boxes as contacts, or as sensor events.
+
+    No narrow test is counted.
     """
     effects = Effects(narrowphase=False, sensors=True, response=stacking, stacking=stacking)
     world = World(effects, gravity=(0, 0))

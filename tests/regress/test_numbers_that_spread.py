@@ -1,9 +1,8 @@
-"""A force, mass or radius that is not finite disables its body only; before the fix it reached the whole heap in one
-step.
+"""A force, mass or radius that is not finite disables only its body; before the fix it spread to the whole heap.
 
-Only positions and velocities were checked, and a sweep of such a body ended Python. Version 0.1.0 also hung for a
-character's `climb` of 1e308 and read past its arrays for a radius of NaN. It raised "math domain error" in a query
-about a body with an infinite angle.
+Only positions and velocities were checked, so the value spread in one step. A sweep of such a body crashed Python.
+Version 0.1.0 also hung for a character's `climb` of 1e308 and read past its arrays for a radius of NaN. It raised "math
+domain error" in a query about a body with an infinite angle.
 """
 
 import math

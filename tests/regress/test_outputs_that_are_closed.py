@@ -1,4 +1,7 @@
-"""A mistake with closed standard error has a proper exit code, and a full disk gives a message, not a traceback."""
+"""A wrong command line gives the exit code 2 also if standard error is closed.
+
+A full disk or a closed pipe as standard output causes no traceback.
+"""
 
 import subprocess
 import sys

@@ -202,7 +202,7 @@ def test_zero_step_keeps_bouncing_bodies_as_they_are():
 
 
 def test_motion_rectangles_of_masks_are_where_they_are_drawn_and_no_wider():
-    """Swept boxes of masks equal the drawn masks without an extra pixel, which cost nine candidates in a hundred.
+    """The swept box of a mask ends at its drawn pixels; an extra pixel added 9 % to the candidate pairs.
 
     The box of a moving mask may also cover its motion in later steps.
     """

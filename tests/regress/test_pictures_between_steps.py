@@ -1,7 +1,7 @@
-"""A window shows states interpolated between steps, and all lanes are visible then.
+"""A window draws states interpolated between steps, and all lanes of a scene are visible in them.
 
-Lanes were empty if their cameras were not notified of the step. A headless run draws the poses of the last step, so no
-screenshot showed this.
+A lane was empty if its camera was not notified of the step. A run without a window draws the poses of the last step, so
+no screenshot showed this.
 """
 
 import numpy as np

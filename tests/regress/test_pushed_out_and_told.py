@@ -1,7 +1,7 @@
-"""A body that is pushed through a wall past its middle has a begin event.
+"""A body that is pushed through a wall past the middle of the wall has a begin event.
 
-It was pushed out on the far side without an impulse and was separate at the end of the step, so no event reported the
-contact.
+It was pushed out on the far side without an impulse and was separate from the wall at the end of the step. Before the
+fix no event reported the contact.
 """
 
 import pytest
@@ -11,7 +11,10 @@ from physics import Circle, Effects, Polygon, World
 
 @pytest.mark.parametrize("aside", [11.0 - 0.9 * k for k in range(29)])
 def test_every_pair_that_is_pushed_apart_is_told(aside):
-    """Every pair that is pushed apart has a begin event; rounding leaves it just separate or just overlapping."""
+    """Every pair that is pushed apart has a begin event.
+
+    At the end of the step rounding leaves some pairs just separate and others just overlapping.
+    """
     world, y = World(Effects(response=True)), 960.0 + aside
     wall = world.add_body(Polygon.box(1.0, 22.0), position=(0.0, 960.0), kind="static")
     disc = world.add_body(Circle(5.0), position=(-8.0, y), velocity=(600.0, 0.0))

@@ -1,6 +1,7 @@
-"""A small recording cannot exhaust the memory or cause a traceback by its repeats, pointers, level names or dates.
+"""A small recording cannot exhaust the memory or cause a traceback.
 
-Dates and numbers of points of any length once made a line of text that took gigabytes to draw.
+Its repeats, pointers, level names and dates are limited. Dates and numbers of points of any length once made a line of
+text that took gigabytes to draw.
 """
 
 import json

@@ -1,4 +1,7 @@
-"""The benchmark record is written in an environment without numba; it once raised PackageNotFoundError for its size."""
+"""The benchmark record is written in an environment without numba.
+
+Before the fix it raised PackageNotFoundError when it summed the sizes of the installed libraries.
+"""
 
 from importlib import metadata
 

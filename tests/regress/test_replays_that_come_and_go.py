@@ -1,7 +1,7 @@
-"""A replay that disappears after listing, or a broken link, does not stop the program when the replays are opened.
+"""A replay file that disappears, or a broken link, does not stop the program when the list of replays is opened.
 
-A link or folder in recent/ does not make runs look as if they could not be kept. If the clock was set back, the latest
-run is not removed as the oldest.
+A link or folder in recent/ does not count as a stored run. If the clock was set back, the latest run is not removed as
+the oldest.
 """
 
 import os

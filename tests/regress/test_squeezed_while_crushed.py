@@ -22,11 +22,11 @@ TOUCHES = 3.0  # [px] in a body that is no box, a character may be by its feet a
 
 
 def crushed(effects, hero, crusher, speed, down, stop, up, times=1):
-    """Return a tuple for each step: (all moves report squeezed, no move does, depth in the crusher [px], head).
+    """Move a crusher onto a character. Return a list of (all moves report squeezed, no move does, depth, head).
 
-    The crusher moves at `speed` for `down` steps, rests for `stop` and moves back for `up`. head: distance in y from
-    the middle of the character to the lower side of the crusher, if that is a box [px], positive if the side is the
-    lower of the two. times: number of moves in each step.
+    Each step gives one entry. The crusher moves at `speed` for `down` steps, rests for `stop` steps and moves back for
+    `up` steps. times: number of moves of the character in each step. depth: overlap of the two [px]. head: height of
+    the character's centre above the lower side of a box crusher, negative if it is below [px].
     """
     world = World(effects)
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
@@ -63,7 +63,7 @@ def test_it_is_told_without_a_gap(effects, hero, crusher):
 def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
     """A box crusher squeezes the character exactly while the two share a pixel.
 
-    Closed form: the character is on the pixel grid, and the lower side of the box is below the character's head.
+    They do while the lower side of the box is below the upper side of the character, whose position is in whole pixels.
     """
     down = round(16.0 / speed * 60)
     found = crushed(EFFECTS["plain"], hero, "box", speed, down, 10, down // 2)
@@ -80,7 +80,7 @@ def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
 
 
 def test_it_is_told_once_more_after_it_left_between_two_moves():
-    """A crusher that has left since the last move is reported by the next move, and by no later one."""
+    """A crusher that left the character before a move is still reported by this move, and by no later one."""
     world = World(EFFECTS["plain"])
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     hero = Character(world, HEROES["box"], (0, -10))

@@ -1,7 +1,7 @@
-"""A short step between long ones leaves piles in place; before the fix the top of five boxes flew 25,000 px away in
-five seconds.
+"""A short step between long ones leaves piles in place; before the fix the top box of five flew 25,000 px away.
 
-The impulse that stopped a tremble in 1e-5 s was cached as a force, and a step of 1/60 s applied 1,667 times as much.
+It did so within five seconds. The impulse that stopped a tremble in 1e-5 s was cached as a force, and a step of 1/60 s
+applied 1,667 times as much.
 """
 
 import pytest

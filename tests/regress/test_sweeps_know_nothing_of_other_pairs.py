@@ -14,8 +14,9 @@ SLACK = 0.16  # [px]
 
 @kernel
 def sweep(count, other_count, half, slack, workspace):
-    """Return the sweep result of two sharp hulls whose corners are in the workspace. count, other_count: numbers of
-    corners.
+    """Return the sweep result of two hulls without rounding whose corners are in the workspace.
+
+    count, other_count: numbers of corners.
     """
     return sweep_hull(Mover(count, 0.0, half, slack), 0.0, other_count, 0.0, workspace)
 

@@ -116,7 +116,10 @@ def test_blocking_puts_a_spinner_back_by_its_angle():
 
 
 def test_an_impact_with_a_chain_knows_its_link():
-    """An impact with a chain uses the material of the link that was hit, not of a link that does not exist."""
+    """An impact with a chain uses the material of the link that was hit.
+
+    Before the fix it used that of a link that does not exist.
+    """
     effects = Effects(response=True, friction=True, restitution=True, rotation=True, continuous=True)
     world = World(effects, solver="projection")
     bouncy, dull = Material(restitution=1.0, friction=0.0), Material(restitution=0.0, friction=0.0)

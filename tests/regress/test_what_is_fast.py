@@ -1,7 +1,7 @@
 """A body is fast if a step moves its centre further than the distance from the centre to its nearest edge.
 
-Half of the least width is the wrong limit, because a triangle's centre is nearer to its base. In a step of 0.36 sides,
-which was not swept, a triangle passed to the other side of one-sided ground.
+Half of the least width is the wrong limit, because a triangle's centre is nearer to its base than that. Before the fix
+a step of 0.36 sides was not swept, and a triangle passed through one-sided ground.
 """
 
 import math

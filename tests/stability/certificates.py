@@ -20,8 +20,9 @@ CLIPPING = 1e-9  # of the larger shape: within it a contact keeps a face where t
 
 
 class Chunk(NamedTuple):
-    """Some pairs of hulls with the results of distance() and collide() for each; points are relative to the position of
-    shape A [px].
+    """Some pairs of hulls with the results of distance() and collide() for each pair.
+
+    Points are relative to the position of shape A [px].
     """
 
     a: Hulls
@@ -93,10 +94,10 @@ def distance_excess(found):
 
 
 def contact_excess(found):
-    """Return (worst error of the contacts over the allowance for rounding, share of pairs whose error exceeds it).
+    """Return (worst error of the contacts / allowance for rounding, share of pairs with a larger error).
 
     The normal must be a unit vector, and a move along it by the depth must end the overlap. A larger error occurs only
-    where a contact keeps a face beside a rounded corner.
+    if a contact stays on a face beside a rounded corner.
     """
     met, room = found.touching, found.room * (CLIPPING / ROUNDING)
     along = rounded_hulls.gap_along(found.a, found.b, found.contact_normal)

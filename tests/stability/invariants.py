@@ -1,6 +1,4 @@
-"""`Watch`, which steps a world and checks its invariants after every step, and the measures
-that tests take of a world.
-"""
+"""`Watch`, which steps a world and checks its invariants after every step, and functions that measure a world."""
 
 import math
 
@@ -44,12 +42,12 @@ def pulling(world):
 
 
 class Watch:
-    """A world's steps, with a check of the invariants of game/invariants after each of them.
+    """A world with a check of the invariants of game/invariants after each step.
 
-    passive: no energy may be added from now on (invariant U5), whatever the world's tables suggest. isolated: no
-    external force acts, so the momentum must stay constant (U3). depth: largest overlap allowed after every step [px].
-    capped: True allows the substep cap to be hit (U11); under the default settings a lack of substeps is counted, but
-    is no failure. without: names of the invariants that this world breaks on purpose.
+    passive: True if no energy may be added from now on (invariant U5), whatever the tables of the world suggest.
+    isolated: True if no external force acts, so that the momentum stays constant (U3). depth: largest overlap allowed
+    after a step [px]. capped: True allows the substep cap to be reached (U11). Under the default settings this is
+    always allowed. without: names of the invariants that this world breaks on purpose.
     """
 
     def __init__(self, world, passive=False, isolated=False, depth=math.inf, capped=False, without=()):

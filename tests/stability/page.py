@@ -49,9 +49,9 @@ def cell(text):
 
 
 def measured_cells(limit, value, usual):
-    """Return (value, margin) as texts of table cells; both are "–" if value is None.
+    """Return (value, margin) as texts of two table cells; both are "–" if value is None.
 
-    The limit is added to the value if it differs from `usual`, the limit shown in the line.
+    usual: limit that the line of the table already shows. Another limit is added to the text of the value.
     """
     if value is None:
         return "–", "–"

@@ -69,8 +69,8 @@ class Hitbox:
     def disc(self, radius, place, friction, velocity=(0, 0), weight=None):
         """Add a disc of density 1 and return the body.
 
-        weight: (radius, offset down, density) of a second disc fixed within it, or None; with a weight the body starts
-        at an angle of 0.5 rad.
+        weight: None, or (radius, distance below the centre, density) of a second disc fixed within it. A disc with a
+        weight starts at an angle of 0.5 rad.
         """
         shapes = [Circle(radius)]
         if weight is not None:
@@ -128,8 +128,8 @@ class Pymunk:
     def disc(self, radius, place, friction, velocity=(0, 0), weight=None):
         """Add a disc of density 1 and return the body.
 
-        weight: (radius, offset down, density) of a second disc fixed within it, or None; with a weight the body starts
-        at an angle of 0.5 rad.
+        weight: None, or (radius, distance below the centre, density) of a second disc fixed within it. A disc with a
+        weight starts at an angle of 0.5 rad.
         """
         pymunk = self.pymunk
         body = pymunk.Body()

@@ -56,7 +56,11 @@ def on_slope(angle, along, height):
 
 
 def column(world, count, gap=0.0, shift=0.0, friction=0.6, size=1.0, density=1.0):
-    """Add a column of boxes on y = 0, shifted left and right by turns, and return the bodies, lowest first."""
+    """Add a column of boxes on y = 0 and return the bodies, lowest first.
+
+    shift: every box is moved by this distance, alternately to the left and to the right. gap: free space below each
+    box.
+    """
     return [
         world.add_body(
             Polygon.box(size, size),
@@ -68,7 +72,10 @@ def column(world, count, gap=0.0, shift=0.0, friction=0.6, size=1.0, density=1.0
 
 
 def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
-    """Add a pyramid: rows of boxes, each with one box fewer than the row below. Return the ids by row, lowest first."""
+    """Add a pyramid of boxes and return the ids by row, lowest first. Each row has one box fewer than the row below.
+
+    base: number of boxes in the lowest row. spread: distance of neighbours in units of `size`.
+    """
     return [
         world.add_bodies(
             Polygon.box(size, size),
@@ -80,10 +87,9 @@ def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
 
 
 def pyramid_and_load(world, density, height):
-    """Build a pyramid of ten rows without its top box, and a box released `height` above the position of the missing
-    one.
+    """Build a pyramid of ten rows without its top box, and a free box at a `height` above the missing one.
 
-    Returns (ids by row, lowest first; the released box). density: density of the released box.
+    Return (ids by row, lowest first; the free box). density: density of the free box.
     """
     floor(world)
     rows = pyramid(world, 10, spread=1.01)
@@ -92,5 +98,5 @@ def pyramid_and_load(world, density, height):
 
 
 def tops(world, ids):
-    """Return the heights of the origins of some bodies above y = 0, as an array. ids: sequence of body ids."""
+    """Return an array of the heights of bodies' origins above y = 0. ids: sequence of body ids."""
     return -world.bodies["y"][world.rows(np.asarray(ids))]

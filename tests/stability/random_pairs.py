@@ -15,8 +15,9 @@ FURTHEST = 1e7  # [px] from the origin
 
 
 class Pairs(NamedTuple):
-    """n pairs of shapes and poses as arguments of physics functions, and the same shapes as arrays relative to A's
-    position.
+    """n pairs of shapes and poses, as arguments of physics functions and as arrays.
+
+    The arrays a and b contain the same shapes as rounded hulls, relative to the position of shape A.
     """
 
     shapes_a: list
@@ -86,8 +87,9 @@ def draw_pairs(seed, count):
 
 
 def _near(rng, a, b):
-    """Return random (n, 2) offsets of B from A, drawn from 1.2 times the range in which their
-    bounding boxes overlap.
+    """Return random (n, 2) offsets of B from A at which the bounding boxes of most pairs overlap.
+
+    The range of the offsets is 1.2 times the range in which the boxes overlap.
     """
     (low_a, high_a), (low_b, high_b) = a.boxes(), b.boxes()
     low, high = low_a - high_b, high_a - low_b
@@ -95,9 +97,9 @@ def _near(rng, a, b):
 
 
 def _touching(rng, a, b):
-    """Return (n, 2) offsets of B from A that leave a gap or an overlap along a random direction.
+    """Return random (n, 2) offsets of B from A at which the shapes nearly touch, along a random direction.
 
-    Gap and overlap are 1 to 1e-12 times the size of the smaller shape.
+    The gap or overlap along this direction is 1 to 1e-12 times the size of the smaller shape.
     """
     angle = rng.uniform(0.0, 2.0 * np.pi, len(a.radii))
     normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)

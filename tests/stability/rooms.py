@@ -69,9 +69,9 @@ def shapes_of(kind, rng):
 
 
 def room(seed, most=300, **settings):
-    """Return (world, half width [px], whether it has masks) of a random room with the default settings.
+    """Return (world, half width [px], has_masks): a random room with the default settings.
 
-    most: greatest number of bodies.
+    most: greatest number of bodies. has_masks: whether some bodies are pixel masks.
     """
     rng = np.random.default_rng([34, seed])
     count, masks = int(rng.integers(50, most + 1)), seed % 3 != 0
@@ -178,9 +178,7 @@ def passive(kind, seed, **settings):
 
 
 def most_energy(kind, seed, seconds, **settings):
-    """Simulate a passive scene and return its greatest energy and its greatest rise in a step, over the energy at the
-    start.
-    """
+    """Simulate a passive scene and return (greatest energy, greatest rise in a step), relative to the start energy."""
     world = passive(kind, seed, **settings)
     dynamic = world.bodies["kind"] == 2
     last = start = energy(world, world.bodies[dynamic])

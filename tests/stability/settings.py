@@ -1,8 +1,7 @@
 """Settings of the worlds that tests create: 4 substeps or the defaults of `World()`, and the phases of a sweep.
 
-`variants` finds the tests whose worlds have no settings of their own; `sweeps` finds those with a phase or a seed.
-conftest.py runs the former under both settings. It runs the latter with SWEEP phases; only the first is not marked
-nightly.
+`variants` finds the tests whose worlds follow the present settings; conftest.py runs them under both settings. `sweeps`
+finds the tests with a phase or a seed; conftest.py runs them SWEEP times, all but the first run marked nightly.
 """
 
 import ast
@@ -64,10 +63,10 @@ def generator(seed: int) -> np.random.Generator:
 
 
 def make(effects: Effects | None, usual: Effects, options: dict[str, Any]) -> World:
-    """Return a world with the present settings; `effects` and options that the caller gives have priority.
+    """Return a world with the present settings; `effects` and `options` of the caller have priority.
 
-    usual: effects used under the 4-substep settings if `effects` is None. Under the default settings World() chooses
-    them.
+    usual: effects if `effects` is None and the settings are those with 4 substeps. Under the default settings World()
+    chooses the effects.
     """
     if _present[-1] == FOUR:
         return World(usual if effects is None else effects, **{"substeps": 4, **options})
@@ -93,8 +92,9 @@ def sweeps(function: Callable[..., object], module: ModuleType) -> bool:
 
 
 def _calls(start, module):
-    """Yield (name, set of keyword names) of each call in a function, and in the module's
-    functions that it refers to.
+    """Yield (name of the called function, set of its keywords) of each call in a test function.
+
+    The functions of the module that the test refers to are searched too.
     """
     functions, todo, seen = _functions(module), [start], set[str]()
     while todo:

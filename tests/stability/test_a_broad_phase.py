@@ -112,8 +112,9 @@ def test_a3_stack_stands_on_a_huge_ground(measured, half, broadphase):
 
 
 def churn(broadphase, steps):
-    """Return a list of the bytes allocated by Python after each step of a world whose 60 bodies are constantly
-    replaced.
+    """Return a list of the memory [bytes] that Python has allocated after each step of a world.
+
+    The world has 60 bodies, which are constantly replaced.
     """
     world = World(Effects(response=True), BROADPHASES[broadphase]())
     rng, alive, held = np.random.default_rng(4), [], []
@@ -215,9 +216,7 @@ def test_a6_a_fast_body_pairs_with_all_it_sweeps(measured, strategy, way):
 
 
 def beyond(shape, pose, box):
-    """Return how far [px, exact fraction] a shape extends beyond a box. The numbers of the shape are integers or
-    dyadic.
-    """
+    """Return how far a shape extends beyond a box [px], as an exact fraction; 0 if it is inside."""
     x, y, angle = pose
     c, s, (x, y) = Fraction(math.cos(angle)), Fraction(math.sin(angle)), map(Fraction, (x, y))
     points = (shape.center,) if isinstance(shape, Circle) else shape.points

@@ -33,7 +33,7 @@ MEETINGS = {  # two outlines, where the second touches the first, and the way th
 
 
 def moved(corners, way, by):
-    """Return the corners, moved by the length `by` along the direction `way`, as floats."""
+    """Return the corners of a polygon, moved by the length `by` along a direction `way` of any length."""
     along = by / math.hypot(*way)
     return [(x + along * way[0], y + along * way[1]) for x, y in corners]
 
@@ -240,9 +240,9 @@ def test_b9_touching_is_a_contact_of_no_depth(measured, name):
 
 
 def needles(measured, count):
-    """Check `count` pairs of needles, 100 px by 0.001 px, with corners on a lattice and exact products.
+    """Check `count` pairs of needles, 100 px by 0.001 px, against exact integer arithmetic of corners on a lattice.
 
-    Every crossing must be found, and nothing else.
+    Every pair that crosses must be found, and no other.
     """
     rng, unit = np.random.default_rng(1), 2.0**-20
     turns = np.radians(rng.choice([-1.0, 1.0], (2, count)) * 10.0 ** rng.uniform(-4.0, -2.0, (2, count)))

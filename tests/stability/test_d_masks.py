@@ -107,9 +107,10 @@ def test_d7_a_turned_square_has_its_area(measured):
 
 @pytest.mark.parametrize("continuous", [False, True])
 def test_d11_a_sprite_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(measured, continuous):
-    """At 100 px a step and random phases, a share of 1 - (w + L) / (v dt) of the sprites misses a thin wall.
+    """Sprites that move 100 px a step miss a thin wall with a probability of 1 - (w + L) / (v dt).
 
-    With continuous collision none misses it.
+    w is the thickness of the wall, L the length of the sprite; the phases of the steps are random. With continuous
+    collision none misses it.
     """
     count, size, width = (10_000 if JIT else 300), 8, 1
     rng = np.random.default_rng(11)
@@ -216,10 +217,10 @@ def test_d17_a_spike_between_the_corners_of_a_long_edge_is_met(measured):
 
 @pytest.mark.parametrize("radius, error", [(4, 0.028), (8, 0.011), (16, 0.0033), (32, 0.0012), (64, 0.0004)])
 def test_d18_discs_of_pixels_weigh_as_discs(measured, radius, error):
-    """The area of a pixel disc has an rms error of at most `error` over 200 random centres, its inertia at most twice
-    that.
+    """Pixel discs with random centres have the area and the inertia of discs.
 
-    The random centres differ from those of the quoted source.
+    The rms error over 200 centres is at most `error` for the area and twice that for the inertia. The random centres
+    differ from those of the quoted source.
     """
     rng, size = np.random.default_rng(radius), 2 * radius + 3
     areas, inertias = [], []

@@ -113,9 +113,9 @@ def test_e3_cube_that_starts_a_slop_inside_slides_on(measured, solver, ground):
 
 
 def test_e1_driven_box_goes_along_a_chain_without_a_hitch(measured):
-    """A box with fixed rotation, driven at 2 m/s over unit links, never moves back and stays level within 0.05.
+    """A box with fixed rotation, driven at 2 m/s along a chain of unit links, never moves back.
 
-    The box has a half size of 0.2; the distance travelled is exact within 5 %.
+    Its height stays within 0.05 and its distance is right within 5 %; its half size is 0.2.
     """
     world = metres()
     world.add_body(Chain([(x, 0.0) for x in range(-2, 39)]), kind="static", material=SMOOTH)
@@ -178,7 +178,7 @@ def test_e5_capsule_driven_over_the_seam_of_two_chunks(measured, kind):
 
 
 def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
-    """Return the share of its start height that a shape regains in a quarter circle of links or of slabs."""
+    """Move a shape through a quarter circle of links or slabs. Return the share of its height that it regains."""
     world = metres(effects=pile_effects(continuous=True), dt=dt)
     angles = [math.pi * (0.75 - 0.5 * k / links) for k in range(-20, links + 21)]
     points = [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
@@ -218,8 +218,8 @@ def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
 def test_e6_valley_of_links_gives_the_height_back(measured, shape):
     """A shape regains its height in a valley of 240 links over a quarter circle, except about 1 % of the energy.
 
-    The loss comes from the turns at the link joints. Normals that lag by a step can add up to 2 % at 60 Hz; at 240 Hz
-    no energy is gained.
+    The turns at the corners between links take this energy. Normals that lag by a step can add up to 2 % at 60 Hz; at
+    240 Hz no energy is gained.
     """
     for dt in (1 / 60, 1 / 240):
         share = valley("chain", shape, dt=dt)

@@ -203,9 +203,9 @@ def test_f22_twenty_bounces_lose_no_height_to_the_length_of_steps(measured, solv
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f22_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
-    """An elastic ball (e = 1) never gains height, and loses at most the distance of two steps at its impact speed.
+    """An elastic ball (e = 1) never rises higher than it fell, and the lost height shrinks with dt.
 
-    The loss therefore shrinks with dt.
+    It is at most the distance that the ball moves in two steps at the speed of its impact.
     """
     lost = [2.0 - first_apex(solver, 1.0, dt=dt) for dt in (1 / 60, 1 / 240, 1 / 960)]
     assert min(lost) >= -0.01 * 2.0
@@ -282,10 +282,10 @@ def test_f23_elastic_bar_keeps_its_energy_in_a_room(measured, shape):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f24_ball_bounces_above_the_threshold_of_normal_speed_alone(measured, solver):
-    """Only the normal speed counts for the restitution threshold.
+    """Only the normal speed is compared with the restitution threshold.
 
-    A ball at 2.9 m/s on a plane of 70 degrees has a normal speed of 0.99 m/s. It does not bounce at a threshold of 1
-    m/s. It bounces at 0.1 m/s, and also if it is 2 % faster.
+    A ball that falls at 2.9 m/s on a plane of 70 degrees has a normal speed of 0.99 m/s. It does not bounce with a
+    threshold of 1 m/s. It bounces with a threshold of 0.1 m/s, and with a speed that is 2 % higher.
     """
     left = {}
     for scale, speed in ((1.0, 2.9), (0.1, 2.9), (0.999, 2.9 * 1.02)):
@@ -350,9 +350,9 @@ def test_f28_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(measur
 @pytest.mark.parametrize("restitution", [0.4, 1.0])
 @pytest.mark.parametrize("ball_first", [True, False])
 def test_ball_that_hits_a_free_box_off_its_middle_turns_it_as_the_impact_formula_says(solver, restitution, ball_first):
-    """A ball hits a free box off its centre: the impulse is j = (1 + e) v / (1/m + 1/M + r2/I), without friction.
+    """A ball that hits a free box off its centre gives it the impulse j = (1 + e) v / (1/m + 1/M + r²/I).
 
-    The formula is in any textbook of mechanics.
+    There is no friction. The formula is in any textbook of mechanics.
     """
     world = metres(solver, gravity=(0.0, 0.0))
     material = Material(friction=0.0, restitution=restitution)

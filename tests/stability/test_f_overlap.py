@@ -43,8 +43,9 @@ def test_f9_pyramid_that_starts_a_quarter_inside_itself(measured, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f10_a_hundred_boxes_at_one_point(measured, solver):
-    """A hundred boxes at one point separate within 10 s, with finite and reproducible values, at ten push-out speeds at
-    most.
+    """A hundred boxes at one point separate within 10 s, no faster than ten times the push-out speed.
+
+    All values stay finite, and a second run gives the same digest.
     """
     runs = []
     for _ in range(2):
@@ -64,9 +65,9 @@ def test_f10_a_hundred_boxes_at_one_point(measured, solver):
 
 
 def crowd(measured, side, steps):
-    """Simulate a closed box with side x side discs, more than fit, and check that none escapes and that they slow down.
+    """Simulate a closed box with side x side discs, more than fit into it.
 
-    The discs cover the share of the box that F11 states.
+    Check that none escapes and that they slow down. The discs cover the share of the box that F11 states.
     """
     world = metres(effects=pile_effects())
     width, height = side * 0.8, side * 0.78
@@ -131,8 +132,9 @@ def test_f12_discs_crushed_by_plates_stay_between_them(measured):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("depth", [0.5 * SLOP, SLOP, 4 * SLOP, 20 * SLOP])
 def test_f27_overlap_at_the_start_goes_without_a_pop(measured, solver, depth):
-    """An overlap at the start shrinks to at most a slop; the box rises by no more than a slop and no faster than the
-    push-out.
+    """An overlap at the start shrinks to at most a slop, and the box hardly rises.
+
+    It rises by no more than a slop above the floor and no faster than the push-out speed.
     """
     world = metres(solver)
     floor(world)

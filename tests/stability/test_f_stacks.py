@@ -27,7 +27,7 @@ G = 10.0
 
 
 def stiffness(substeps):
-    """Return the stiffness of a soft contact divided by the mass of the lighter body [1/s2].
+    """Return the stiffness of a soft contact divided by the mass of the lighter body [1/s²].
 
     The contact frequency is 60 Hz, or an eighth of the substeps per second if that is less.
     """
@@ -159,10 +159,10 @@ def test_f4_large_and_tiny_pyramids(measured, base, size, steps):
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("density", [100, 200, 300])
 def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
-    """A pyramid of ten rows stands for 10 s after a box 100 to 300 times as heavy drops 2 m onto it, with four
-    substeps.
+    """A pyramid of ten rows stands for 10 s after a box 100 to 300 times as heavy drops 2 m onto it.
 
-    A soft contact under a load F sinks by F / (m w2), with m the mass of the lighter body: 300 g at 30 Hz gives 0.08 m.
+    A soft contact under a load F sinks by F / (m w²), where m is the mass of the lighter body. With four substeps (30
+    Hz) a load of 300 m g gives 0.08 m.
     """
     world = metres(substeps=substeps)
     rows, heavy = pyramid_and_load(world, density, 2.0)
@@ -179,9 +179,10 @@ def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
 @needs_speed
 @pytest.mark.parametrize("props, substeps", [("boxes", 8), ("triangles", 8), ("triangles", "auto")])
 def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
-    """A box of 20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area 0.5 (800 : 1).
+    """Two small props stay under a big box that falls on them.
 
-    The props stay under the box. The box sinks by no more than twice the deflection of soft contacts under 200 g each.
+    A box of 20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area 0.5 (800 : 1). It sinks
+    by no more than twice the deflection of soft contacts that carry half its weight each.
     """
     world = metres(substeps=substeps)
     floor(world, width=400.0)

@@ -76,10 +76,10 @@ def test_g3_the_sweep_does_not_eat_the_speed_of_the_impact(measured, restitution
 
 
 def test_g4_long_steps_stop_at_the_wall_and_not_before(measured):
-    """With steps of 0.25 s at 20 m/s, a ball of radius 0.5 moves 5 m a step until it stops at the wall face at x =
-    12.2.
+    """A ball in long steps moves on until it reaches a wall, and stops there.
 
-    After the step of the impact 11.35 < x < 11.71; then it is at rest.
+    It has a radius of 0.5 and moves 5 m in each step of 0.25 s, towards a wall face at x = 12.2. After the step of the
+    impact 11.35 < x < 11.71; then it is at rest.
     """
     world = flying(dt=0.25)
     world.add_body(Polygon.box(2, 8), position=(13.2, 0.0), kind="static")
@@ -363,10 +363,9 @@ def test_g13_thin_rods_pass_thin_walls_when_off_and_never_when_on(measured, mode
 @pytest.mark.parametrize("speed", [0.5, 1.0, 3.0, 10.0 / 3.0, 10.0, 100.0])
 @pytest.mark.parametrize("swept", [False, True])
 def test_g13_a_disc_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(measured, speed, swept):
-    """A disc that is not swept misses a thin wall at the rate 1 - (w + 2 r) / (v dt) over random phases; a swept one
-    never does.
+    """A disc that is not swept misses a thin wall with a probability of 1 - (w + 2 r) / (v dt); a swept one never does.
 
-    The rate is 0.91 for 3.33 m a step, w = 0.1 and r = 0.1.
+    The phases of the steps are random. The rate is 0.91 for 3.33 m a step, w = 0.1 and r = 0.1.
     """
     count, width, radius = (10_000 if JIT else 300), 0.1, 0.1
     rng = generator(13)

@@ -11,7 +11,10 @@ from tests.stability.piles import SOLVERS, floor, metres, needs_speed, pile_effe
 
 
 def settled_pyramid(x, y, solver):
-    """Return (step at which a pyramid at (x, y) falls asleep or None, poses relative to (x, y) as an (n, 2) array)."""
+    """Simulate a pyramid at (x, y). Return (step in which it falls asleep or None, positions relative to (x, y)).
+
+    The positions are an array (bodies, 2).
+    """
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world, x=x, y=y)
     pyramid(world, 4, x=x, y=y, spread=1.25)

@@ -96,9 +96,9 @@ def record(world, steps):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_l2_snapshot_then_300_steps_restore_then_300_steps(measured, solver, tmp_path):
-    """A restored snapshot gives the same digests for 300 steps, in the same world and, from a file, in another world.
+    """A world that is restored from a snapshot repeats 300 steps with the same digests.
 
-    The snapshot therefore contains the whole state.
+    This holds in the same world, and in another world that loads the snapshot from a file.
     """
     world = zoo(solver)
     record(world, 60 if JIT else 10)
@@ -201,8 +201,9 @@ def test_l3_jitter_of_a_ten_billionth_changes_no_statistics(measured):
 
 
 def sag(h, count):
-    """Return the allowed sag of a stack of `count` boxes: one slop per box, more if the substep h [s] is too long for
-    30 Hz.
+    """Return by how much a stack of `count` boxes may sag [m].
+
+    It is one slop for each box, and more if the substep h [s] is too long for contacts of 30 Hz.
     """
     return count * 0.005 * max(1.0, (30.0 * 8.0 * h) ** 2)
 
@@ -431,7 +432,7 @@ def test_l10_woken_bodies_stay_where_they_lay(measured, solver):
 
 @pytest.mark.parametrize("share", [0.05, 0.5, 1.0, 1.5, 1.95, 2.1])
 def test_l11_spring_by_forces_swings_as_symplectic_euler_says(measured, share):
-    """A spring simulated by forces oscillates as symplectic Euler predicts: v -= w² x h, x += v h.
+    """A spring made of forces oscillates as symplectic Euler predicts: v -= w² x h, then x += v h.
 
     For w h < 2 it oscillates forever with an amplitude of at most 1 / sqrt(1 - (w h / 2)²).
     """

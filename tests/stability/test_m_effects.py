@@ -26,8 +26,9 @@ UNUSED = (
 
 
 def crowd(effects, steps):
-    """Return the digests of a crowd with no friction, bounce, rotation, fast motion or gravity, so most effects are
-    unused.
+    """Simulate a crowd and return its digest after each step.
+
+    Most effects are unused: there is no friction, bounce, rotation, fast motion or gravity.
     """
     world = World(effects, gravity=(0, 0))
     rng, smooth = generator(3), Material(friction=0.0, restitution=0.0)
@@ -85,7 +86,7 @@ def test_m2_no_work_without_a_cause(measured, solver):
 
 
 def shooter(effects, gravity=(0, 0)):
-    """Return a world of bullets and enemies that overlap without collision response; only pairs are reported."""
+    """Return a world of bullets and enemies without collision response: they overlap, and only pairs are reported."""
     world = World(effects, gravity=gravity)
     rng = generator(3)
     count = 120 if JIT else 30
@@ -97,7 +98,7 @@ def shooter(effects, gravity=(0, 0)):
 
 
 def test_m3_a_shooter_needs_no_solver(measured):
-    """A shooter's pairs equal those of collide() for every pair of bodies, and no solver runs."""
+    """A shooter without a solver reports exactly the pairs that collide() finds in a test of all pairs."""
     differ = rows = met = 0
     quick = shooter(Effects())
     for step in range(40):

@@ -36,7 +36,8 @@ def test_none_passes(way):
 def test_those_that_once_passed(seed, number):
     """Throws that once passed a thin wall now collide with it and do not pass, under both solvers.
 
-    The bodies were deep in thin parts of an outline, or had thin arms that passed before half of the body did.
+    Some of the bodies overlapped thin parts of an outline deeply. Others had thin arms that passed the wall before half
+    of the body did.
     """
     throw = next(itertools.islice(throws(number + 1, seed), number, None))
     for solver in ("soft_step", "sequential_impulse"):
@@ -58,7 +59,7 @@ def test_who_stands_deep_in_a_rim_is_led_back_out_of_all_of_its_parts(thickness,
 
 
 def fast(count, seed):
-    """Yield `count` throws that move in one step by more than the thickness of the body and of the wall."""
+    """Yield `count` throws whose motion in one step is greater than the thickness of the body plus that of the wall."""
     quick = (each for each in throws(50 * count, seed) if np.hypot(*each.velocity) > 60.0 * 44.0)
     return itertools.islice(quick, count)
 

@@ -1,6 +1,6 @@
-"""Pairs that meet within a step have their contact at the point of first touch.
+"""Two bodies that meet within a step have their contact at the point of first touch.
 
-None is found only in overlap, and none is deflected by a surface that it merely passes.
+Contacts are therefore not found only after an overlap, and a surface that a body merely passes does not deflect it.
 """
 
 import math
@@ -134,10 +134,11 @@ def test_boxes_slide_over_forty_boxes_side_by_side(friction, substeps):
 
 @needs_speed
 def test_what_tumbles_in_a_turning_drum_overlaps_by_millimetres():
-    """144 discs and boxes of half a metre in a drum (50 degrees a second) overlap by 13 mm in the median.
+    """Bodies that tumble in a drum overlap by at most 13 mm in the median of all steps, and 30 mm in 95 % of them.
 
-    95 of 100 are within 30 mm, and none is outside. Without contacts at the point of first touch, bodies faster than
-    1.2 m/s overlapped by 49 and 150 mm; in Box2D by 62 and 128 mm.
+    There are 144 discs and boxes of half a metre; the drum turns at 50 degrees a second, and none gets out. Without
+    contacts at the point of first touch, the figures for bodies faster than 1.2 m/s were 49 and 150 mm. Those of Box2D
+    are 62 and 128 mm.
     """
     world = World(pile_effects(continuous=True), gravity=(0, G), pixels_per_meter=1.0)
     walls = [Polygon.box(0.5, 10, center=(x, 0)) for x in (5.0, -5.0)]

@@ -117,8 +117,9 @@ def swing(measured, row, ratio, solver):
 
 
 def naive_swing(measured, row, ratio):
-    """Let a chain of 30 links swing for 12 s with the iterative joint solver; with four
-    substeps its joints separate.
+    """Let a chain of 30 links swing for 12 s with the iterative joint solver, and record the greatest gap.
+
+    With four substeps the joints separate.
     """
     world = jointed(tier=NAIVE, substeps=4)
     chain(world, 30, ratio, phase(0.8))
@@ -196,7 +197,10 @@ def test_n7_without_trees_it_sags(measured, solver):
 
 
 def catenary(length, slack):
-    """Return (a, half width / a, sag) of a catenary with a given length, whose ends are length / slack apart."""
+    """Return (a, half width / a, sag) of a catenary y = a cosh(x / a).
+
+    length: length of the curve. slack: length divided by the distance of its ends.
+    """
     low, high = 1e-6, 50.0  # sinh(u) / u = slack
     for _ in range(200):
         u = 0.5 * (low + high)

@@ -127,9 +127,9 @@ def lift(world, stages, turn):
     + [(3, "direct", "sequential_impulse")],
 )
 def test_n11_a_scissor_lift_rises_as_its_foot_moves_in(measured, stages, tier, solver):
-    """The platform of an n-stage lift is n sqrt(l² - x²) high for a foot at x.
+    """The platform of an n-stage lift with arms of length l is n sqrt(l² - x²) high for a foot at x.
 
-    The motor force is that of virtual work: the weight of all bodies times dh/dx.
+    The motor force follows from virtual work: it is the weight of all bodies times dh/dx of their heights.
     """
     world, turn = jointed(solver, tier=tier), 0.5 + phase(0.5)
     slide, top, arms = lift(world, stages, turn)
@@ -178,10 +178,10 @@ def length_of(one, two):
 
 
 def meet(center, radius, other, far, like):
-    """Return the point at distance `radius` from `center` and `far` from `other`.
+    """Return the point at the distance `radius` from `center` and at the distance `far` from `other`.
 
-    Of the two intersections, it is the one on the same side as in the leg's plan. like: names of the three points in
-    POINTS.
+    There are two such points; `like` selects one. like: names in POINTS of three points that lie as `center`, `other`
+    and the wanted point.
     """
     (ax, ay), (bx, by), apart = center, other, math.dist(center, other)
     u = (radius**2 - far**2 + apart**2) / (2.0 * apart)
@@ -274,9 +274,9 @@ def car(world, place, angle=0.0, hertz=3.0, motor=None):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hertz", [1.5, 3.0, 5.0])
 def test_n13_a_car_sags_by_its_load(measured, hertz, solver):
-    """Each wheel of a car sags by m g / 2k, with k = m' (2 pi f)².
+    """Each wheel of a car sags by m g / 2k, where k = m' (2 pi f)² is the stiffness of its spring.
 
-    m' is the effective mass of the chassis at the axle and the wheel.
+    m' is the effective mass of the spring's two bodies, the chassis (at the axle) and the wheel.
     """
     world = jointed(solver)
     floor(world)

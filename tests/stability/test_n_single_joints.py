@@ -155,7 +155,10 @@ def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("teeth", [-7, 24, 200])
 def test_n22_a_ratchet_turns_one_way(measured, teeth, solver):
-    """A ratchet turns freely by 2 rad one way; the other way its last tooth holds a torque of 20 times its inertia."""
+    """A ratchet turns freely in one direction, by 2 rad here.
+
+    In the other direction its last tooth holds the disc against a torque of 20 times the disc's inertia.
+    """
     world, tooth, way = jointed(solver, gravity=(0.0, 0.0)), 2.0 * math.pi / teeth, math.copysign(1.0, teeth)
     disc, start = world.add_body(Circle(0.5)), phase(tooth)
     world.add_joint(Revolute(None, disc, at=(0.0, 0.0)))

@@ -44,7 +44,10 @@ PLANK = PixelMask(np.ones((6, 30), bool), snap=False)
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n23_a_sprite_swings_as_its_pixels_weigh(measured, solver):
-    """A hollow sprite on a pin swings with the period of its pixel squares as a rigid pendulum (32 px to the metre)."""
+    """A hollow sprite on a pin swings with the period of a rigid pendulum that is made of its pixel squares.
+
+    32 px are one metre.
+    """
     solid = np.ones((24, 40), bool)
     solid[5:20, 6:30] = False
     world, amplitude = jointed(solver, gravity=(0.0, 32.0 * GRAVITY), pixels_per_meter=32.0), 0.3 + phase(1.2)
@@ -218,9 +221,9 @@ def test_n28_a_world_in_other_units_moves_alike(measured, scale, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n29_a_net_swings_and_sleeps_and_costs_nothing(measured, solver):
-    """A net of 12 by 12 balls on 266 joints, hung on two corners in air, swings, sleeps, and then causes no work.
+    """A net of 12 by 12 balls on 266 joints swings, sleeps, and then causes no work.
 
-    A ball thrown into the net wakes it.
+    It hangs on two corners, in a world with air drag. A ball thrown into it wakes it.
     """
     world = jointed(solver, effects={"sleeping": True, "drag": True}, drag=1.5)
     wide, step = 12, 0.5

@@ -46,10 +46,10 @@ def corners(part, x, y, angle):
 
 
 def depth_by_shapely(a, b):
-    """Return the overlap depth of two parts at their poses, computed with shapely.
+    """Return the overlap depth [m] of two parts at their poses, computed with shapely.
 
-    It is the depth of the origin inside the convex hull of all corner differences (Minkowski difference), plus both
-    radii. a, b: arguments of `corners`; a[0] and b[0] are the parts.
+    It is the depth of the origin inside the Minkowski difference of the parts, plus both radii. a, b: tuples of
+    arguments of `corners`, each beginning with a part.
     """
     differences = [(bx - ax, by - ay) for ax, ay in corners(*a) for bx, by in corners(*b)]
     hull, origin = shapely.MultiPoint(differences).convex_hull, shapely.Point(0, 0)
@@ -182,9 +182,9 @@ def test_harmonic_tower_reaches_half_a_harmonic_number_and_is_at_its_limit_every
 
 
 def test_rigid_part_turns_as_its_energy_says():
-    """The fall time of a rigid part equals the integral of d angle / speed, with the speed from the height lost.
+    """The fall time of a rigid part equals the integral of d(angle) / (angular speed).
 
-    The substitution angle = u² removes the singularity.
+    The speed follows from the lost height. The substitution angle = u² removes the singularity.
     """
     arm, height, inertia, turn = 0.025, 4.5, 27.5, 0.1
     u = np.linspace(1e-9, math.sqrt(turn), 200_001)

@@ -129,10 +129,10 @@ def all_grids(kinds):
 
 @pytest.mark.parametrize("part", range(8))
 def test_time_of_impact_with_tiles_is_that_with_the_union_of_their_solid(part):
-    """The time of impact with a tile grid equals the earliest one with its solid pieces, for straight shots from far
-    away.
+    """The time of impact with a tile grid equals the earliest one with its solid pieces.
 
-    It covers every 3 x 3 grid of empty and full tiles, and as many with slopes.
+    The shots are straight and start far away. All 3 x 3 grids of empty and full tiles are tested, and as many with
+    slopes.
     """
     rng = np.random.default_rng(part)
     flat = itertools.islice(all_grids((EMPTY, FULL)), part, None, 8 if JIT else 128)

@@ -46,7 +46,7 @@ def test_crooked_columns_stand(count, seed):
 def test_with_four_substeps_a_crooked_column_of_forty_stands_and_with_two_it_falls(seed):
     """A crooked column of forty boxes stands with four substeps and falls with two.
 
-    The contacts are springs of 30 and 15 Hz then, with four and sixteen times the deflection that they have with eight.
+    Their contacts are springs of 30 and 15 Hz. The deflection is four and sixteen times that with eight substeps.
     """
     assert column_at(crooked(40, seed), substeps=4)[1]
     assert not column_at(crooked(40, seed), substeps=2)[1]

@@ -1,6 +1,6 @@
 """Random throws of masks and other shapes at thin pixel walls: straight, rotated, staircases and rings.
 
-A body has passed if its centre of mass reaches the far side of the wall, although there is no way around it.
+A body has passed a wall if its centre of mass gets to the far side. There is no way around a wall.
 """
 
 import math

@@ -8,11 +8,11 @@ from tests.stability.piles import floor, metres
 
 
 def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", steps=60, round_only=False):
-    """Drop a heap of boxes, balls and capsules. Return an array (bodies, 5) with x, y, angle, vx and vy at the end,
-    relative to (x, y), unmirrored.
+    """Drop a heap of boxes, balls and capsules. Return an array (bodies, 5) with x, y, angle, vx and vy at the end.
 
-    Its rows have the same order for every `order`. mirror: -1 mirrors the scene in x. order: order of creation, a
-    permutation (None: the order of the rows). round_only: True for discs only.
+    The positions are relative to (x, y). A mirrored result is mirrored back. The rows have the same order for every
+    `order`. mirror: -1 mirrors the scene in x. order: order of creation, a permutation of the rows (None: the order of
+    the rows). round_only: True for discs only.
     """
     world = metres(solver, gravity=(0, 10))
     floor(world, x=x, y=y)

@@ -1,4 +1,7 @@
-"""A scene with every kind of table, and the list of all float columns that a step reads, derived from the dtypes."""
+"""A scene with every kind of table, and the list of all float columns that a step reads.
+
+The list is derived from the dtypes of the tables.
+"""
 
 import math
 from typing import NamedTuple
@@ -11,7 +14,7 @@ from physics.tables.shape import PROXY
 
 
 def floats_of(dtype):
-    """Return the names of the float columns of a table's dtype."""
+    """Return the names of the columns of a table that contain floats. dtype: dtype of the rows."""
     return [name for name in dtype.names if dtype[name].kind == "f"]
 
 
@@ -106,7 +109,7 @@ class Scene:
             self.world.step()
 
     def target(self, field):
-        """Return [id] of the body whose data a field contains: the sick body, or that of the first character."""
+        """Return [id] of the body to which a field belongs: the sick body, or the body of the first character."""
         return [self.heroes[0].body.id if field.table == "characters" else self.sick]
 
     def others(self):
@@ -114,7 +117,7 @@ class Scene:
         return np.flatnonzero(self.world.bodies["x"] > 250.0)
 
     def row_of(self, table):
-        """Return the index of the row in a table that belongs to the sick body, or to the first character."""
+        """Return the index of the row to spoil in a table: a row of the sick body, or that of the first character."""
         world, sick = self.world, self.sick
         if table == "bodies":
             return int(world.rows([sick])[0])
@@ -150,10 +153,10 @@ def same(found, wanted, rows):
 
 
 def columns_of(value, fill, depth=3):
-    """Fill all float arrays in an object's attributes, and in their attributes down to `depth` levels. Return their
-    number.
+    """Fill every float array in the attributes of an object with a value, and return the number of arrays.
 
-    The attribute `tables` is skipped: it contains the contacts, which the tests overwrite by column name.
+    The search includes the attributes of attributes, down to `depth` levels. The attribute `tables` is left out: its
+    contacts are overwritten by column names elsewhere.
     """
     if isinstance(value, np.ndarray):
         if value.dtype.names:

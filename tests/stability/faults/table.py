@@ -16,7 +16,7 @@ changed.
 
 
 class Fault(NamedTuple):
-    """One injected fault: what is done, its result, and its test as `file::function`."""
+    """An injected fault: the fault itself, its expected result, and its test as `file::function`."""
 
     fault: str
     gets: str

@@ -47,7 +47,7 @@ class FullFile:
 
 @pytest.fixture
 def full_disk(monkeypatch):
-    """Return a function full_disk(), after whose call files can be opened but take only half of the data written."""
+    """Return a function full_disk(). After its call, files that are opened take only half of the data written."""
     opened = builtins.open
 
     def limited(path, mode="r", *more, **named):

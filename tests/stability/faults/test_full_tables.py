@@ -36,10 +36,10 @@ WORLDS = {
 
 
 def landed(kind, count, strategy, at_once):
-    """Return the world after ten steps: `count` boxes on a floor, two contact points each, and as many discs on a
-    sensor.
+    """Simulate boxes that land on a floor and discs that overlap a sensor. Return (world, begins, sensor begins).
 
-    at_once: True adds the bodies in one call.
+    count: number of the boxes, with two contact points each, and of the discs. at_once: True adds the bodies in one
+    call.
     """
     effects, solver = WORLDS[kind]
     world = World(effects, strategy(), solver=solver)
@@ -176,8 +176,9 @@ def test_loads_that_need_more_substeps_than_there_are_are_counted(solver):
 
 
 def large_shapes():
-    """Return {name: (shape, point)}: a shape with more rows than its table has initially, and a point above its last
-    row.
+    """Return {name: (shape, point)} of shapes with more cells, links or words than their tables hold at first.
+
+    point: a place above the last cell, link or word of the shape.
     """
     return {
         "cells": (TileGrid(np.ones((1, 300), bool), 4.0), (1198.0, -10.0)),

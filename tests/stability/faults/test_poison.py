@@ -37,8 +37,10 @@ FEW = {  # without a compiler: one of each way in
 
 @pytest.fixture(scope="module")
 def scenes():
-    """Return a function scenes(kind) -> (copy of a scene after its first steps, its bodies STEPS steps later without a
-    fault).
+    """Return a function scenes(kind) -> (scene, expected bodies).
+
+    The scene is a copy that has made its first steps. The expected bodies are those of the same scene without a fault,
+    after STEPS more steps.
     """
     made = {}
 
@@ -130,7 +132,10 @@ def test_every_kind_of_body_can_be_poisoned(scenes, kind, target, steps):
 
 @pytest.mark.parametrize("kind", KINDS if JIT else ["projection"])
 def test_what_stages_share_is_written_before_it_is_read(scenes, kind):
-    """The workspace shared by stages is always written before it is read: NaN in it between steps changes nothing."""
+    """NaN written into the workspace between two steps changes nothing.
+
+    The stages of a step share the workspace, and each number in it is written before it is read.
+    """
     scene, _ = scenes(kind)
     plain, _ = scenes(kind)
     for _ in range(3):
@@ -170,7 +175,7 @@ def test_questions_before_the_next_step_pass_over_it(scenes, kind):
 )
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"] if JIT else ["soft_step"])
 def test_numbers_that_are_finite_and_of_no_use_reach_nobody(solver, given):
-    """Accepted values that overflow in a product disable their body first, and the body below it stays in place."""
+    """A body with an accepted value that overflows in a product is disabled; the body below it stays in place."""
     world = World(Effects.rigid_bodies(), solver=solver)
     world.add_body(Polygon.box(400, 20), position=(0, 10), kind="static")
     below = world.add_body(Polygon.box(10, 10), position=(0, -5))

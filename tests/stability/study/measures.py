@@ -16,7 +16,10 @@ SLIPPED, TIPPED = 0.002, 0.02  # [m], [rad] against the plate
 
 
 def depths(run, first=1, every=5):
-    """Return the deepest overlap [m] of every `every`-th step, from the last step back to step `first`."""
+    """Return the deepest overlap [m] in some steps, as an array.
+
+    The steps are every `every`-th one, counted from the last step back to step `first`.
+    """
     overlaps = Overlaps(run.scene)
     return np.array([overlaps.deepest(run.poses[k]) for k in range(len(run.poses) - 1, first - 1, -every)])
 
@@ -27,7 +30,7 @@ def overlap_at_end(run):
 
 
 def overlap_share(run, share):
-    """Return the percentile `share` (0 to 100) of the deepest overlap per step [mm]."""
+    """Return a percentile of the deepest overlap per step [mm]. share: the percentile, 0 to 100."""
     return MM * np.percentile(depths(run), share)
 
 
@@ -42,14 +45,15 @@ def lean(run):
 
 
 def fall_over_theory(run, theory):
-    """Return the time until a body has turned by 0.1 rad, divided by `theory`, the time of a rigid upper part; inf if
-    none has.
+    """Return the time until a body has turned by 0.1 rad, divided by `theory`; inf if none has.
+
+    theory: time that the rigid upper part of the tower takes [s].
     """
     return math.inf if run.fell is None else run.fell / theory
 
 
 def rise(run, index):
-    """Return how far body `index` rises above its start height after the scene's first removal [mm]."""
+    """Return how far the body `index` rises above its start height [mm], after the scene's first removal."""
     gone = run.scene.removals[0][0]
     return MM * -(run.poses[gone:, index, 1] - run.poses[0, index, 1]).min() if len(run.poses) > gone else math.nan
 
@@ -100,9 +104,9 @@ def _down(run, first):
 
 
 def slide_error(run, share):
-    """Return the error of the acceleration down the slope against g (sin - friction cos), after two seconds [%].
+    """Return the error of the acceleration down a slope after the first two seconds [%].
 
-    share: friction over the least friction that holds the box.
+    The exact value is g (sin - friction cos). share: friction divided by the least friction that holds the box.
     """
     speed, start = _down(run, 3), 120
     if len(speed) <= start + 1:

@@ -24,7 +24,10 @@ class Run:
 
 
 class Watch:
-    """Test of whether a dynamic body of a scene has fallen since the start poses, an array (bodies, 6)."""
+    """A check of whether any dynamic body of a scene has fallen.
+
+    start: poses at the start (bodies, 6), with which later poses are compared.
+    """
 
     def __init__(self, scene, start):
         self.fall, self.rows, self.start = scene.fall, scene.dynamic, start[scene.dynamic]

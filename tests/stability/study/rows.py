@@ -1,9 +1,9 @@
 """Table of the study: each row has a scene, the figure computed from it, and the limit for Hitbox.
 
-Sources of the limits: ISSUE is a goal of the work on stability. BEST is the figure of the best peer, where ISSUE gives
-no goal: AVBD's quoted figure or that of pymunk measured here. quoted: figures of Box2D 3.2 (native C, 4 substeps),
-Rapier 0.21 and AVBD (10 iterations) from the study of 2026-11-22, measured on scenes of the same kind; a dash if not
-measured.
+Sources of the limits: ISSUE is a goal of the work on stability. If there is no such goal, BEST is the figure of the
+best peer: the quoted one of AVBD or the measured one of pymunk. quoted: figures from the study of 2026-11-22, on scenes
+of the same kind; a dash if not measured. The engines are Box2D 3.2 (native C, 4 substeps), Rapier 0.21 and AVBD (10
+iterations).
 """
 
 import math
@@ -26,7 +26,7 @@ EXACT = 1e-9  # [%] of the turn, that showed rounding alone
 
 @dataclass(frozen=True)
 class Row:
-    """One row of the table. Its figure is the worst of all seeds: the one with the greatest absolute value."""
+    """A row of the table. Its figure is that of the worst seed, the one with the greatest absolute value."""
 
     name: str
     scene: Callable[[int], Scene]  # of a seed

@@ -88,8 +88,9 @@ def pyramid(rows, seconds=10.0, sleeping=False):
 
 
 def dropped_on_pyramid(ratio):
-    """Return a scene with a pyramid of ten rows without its top box, onto which a box of `ratio` times the mass falls
-    two metres.
+    """Return a scene in which a heavy box falls two metres onto a pyramid of ten rows without its top box.
+
+    ratio: mass of the heavy box over that of another box.
     """
     solids = pyramid_solids(10, spread=1.01)
     return Scene((floor(), *solids[:-1], Solid(BOX, 0.0, -11.5, density=float(ratio))), 10.0, fall=Fall())
