@@ -593,7 +593,10 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
-        """Remove geometry that no shape uses from the library, if it may be at least half of the library."""
+        """Remove the geometry without a shape from the library.
+
+        Nothing is removed while a quick upper bound of its share is below one half.
+        """
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 

@@ -21,7 +21,7 @@ class Pushed(Arena):
 
 
 class Counted(Arena):
-    """Arena whose state differs in one frame."""
+    """Arena that reports a wrong state in frame 8, so that a comparison with an Arena fails there."""
 
     def state(self):
         return (*super().state()[:-1], 0.0) if self.frame == 8 else super().state()

@@ -17,7 +17,10 @@ DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE
 
 
 class Structure(Layer):
-    """The data structure of the world's broad phase. Brute force has no structure, and the legend says so."""
+    """Overlay that draws the data structure of the world's broad phase, such as grid cells or tree nodes.
+
+    Brute force has no structure. Then the overlay draws nothing, and the legend says so.
+    """
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 

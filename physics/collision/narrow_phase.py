@@ -380,12 +380,15 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
-        """Run the passes, and write their contacts to self.raw after the first `recycled` rows.
+        """Test all candidates. Return (number of contacts including the recycled ones, number of passes).
 
-        The first rows are contacts reused from the last step. Return (number of contacts including the recycled ones,
-        number of passes). The fallback counts as a pass if it added a contact. A single pass writes its contacts in the
-        order of the candidates, so the caller need not sort them. counts: number of pairs of each kind. workspace:
-        scratch memory; batch: input of the pass, a manifold.Batch.
+        There is one pass for each kind of pair, such as polygon against circle. Pairs that a pass cannot decide go to a
+        fallback, which counts as a pass if it added a contact. The contacts of a single pass are in the order of the
+        candidates, so the caller need not sort them.
+
+        recycled: number of contacts reused from the last step. They are the first rows of self.raw, and new contacts
+        follow them. batch: the candidates, a manifold.Batch; counts: number of pairs of each kind; previous: CONTACT
+        rows of the last step, or None; workspace: scratch memory; work: counters of work done.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:

@@ -49,9 +49,10 @@ def side_after_step(identity, body_row, bodies, joints):
 
 @subkernel
 def report_gear(bodies, joints, joint_inout):
-    """Write a gear's sum of coordinates, the rate and the error of this sum, and the speed of its faster side.
+    """Write the sum of a gear's coordinates, its rate and its error, and the speed of the gear's faster side.
 
-    bodies: BODY rows; joints: JOINT rows, reported up to the gear; joint_inout: JOINT row of the gear.
+    bodies: BODY rows; joints: JOINT rows, in which the rows before the gear hold their results; joint_inout: JOINT row
+    of the gear.
     """
     j = joint_inout
     value, speed, rate = side_after_step(j.joint_a, j.body_row_a, bodies, joints)

@@ -127,8 +127,9 @@ class Joints(Scene):
             self._set_tiers()
 
     def update(self, inputs):
-        """Process keys, repeat the player's drag in the hidden world, step both machines, and record their widest
-        gaps.
+        """Process keys, and step the drawn world and the hidden one, each with its own copy of the machine.
+
+        The player's drag is repeated in the hidden world. The widest gap of a joint is recorded for each copy.
         """
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:

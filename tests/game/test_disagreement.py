@@ -138,7 +138,7 @@ class Visit(Scene):
         self.other = world.add_body(corner(True), position=(12.0, -12.0), kind="kinematic")
 
     def update(self, inputs):
-        """Move the other corner in, later out again."""
+        """Move the other mask into the box of the player's mask for `depth` steps, and then out again."""
         way = 1 if self.frame < self.depth else -1
         self.other.velocity = (-240.0 * way, 240.0 * way)
         self.world.step()

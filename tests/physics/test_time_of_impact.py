@@ -56,8 +56,9 @@ def test_box_and_segment():
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
-    """A disc hits a segment rotated by -pi/2, whose end points are rounded, at fraction 0.5
-    (docs/stability.md, C17).
+    """A disc hits a segment at fraction 0.5, although the segment's end points have rounding errors.
+
+    The errors come from its rotation by -pi/2 (docs/stability.md, C17).
     """
     upright = (1, 0, -math.pi / 2)
     disc, wall = (Circle(0.5), ORIGIN, (1, 0, 0)), (Segment((-1, 0), (1, 0)), upright, upright)

@@ -137,9 +137,10 @@ class Measuring:
         self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> str:
-        """Collect results. After a state of the world has been measured, start to measure the world's current state.
+        """Collect the results of measurements. When one is complete, start the next, of the world's current state.
 
-        Call this once per picture, at `now` [s]. Return a line about a decision of the tuner, or "" if there is none.
+        Call this once per frame. now [s]: present time. Return a line about a decision of the tuner, or "" if there is
+        none.
         """
         self.surveyor.turn()
         best = advised(self.surveyor.survey, self.now())
