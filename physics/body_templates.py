@@ -15,7 +15,7 @@ from physics.dynamics.integrate import write_center
 from physics.effects import Effects
 from physics.math2d import Vec2
 from physics.shapes.library import Library
-from physics.shapes.shape import Filter, Material, Shape
+from physics.shapes.shape import EqualByArrays, Filter, Material, Shape
 from physics.tables.body import DYNAMIC, STATIC
 from physics.world_state import WorldState
 
@@ -58,6 +58,7 @@ class Template(NamedTuple):
     body: np.void  # BODY row
     definition: np.void  # BODY_DEF row
     shapes: list[tuple[np.void, int, dict[str, int]]]  # each: SHAPE row, index of the parent, values of the proxy
+    masks: Sequence[tuple[int, Shape]]  # each: index among the shapes of the body, PixelMask whose rows are stored
 
 
 def key_of(
@@ -103,6 +104,8 @@ def find(world: WorldState, key: tuple | None) -> Template | None:
         found = None
     if found is None or found.library is not world.library or found.effects is not world.effects:
         return None
+    if key is None or any(key[0][k] is not mask for k, mask in found.masks):
+        return None  # an equal mask has its own geometry in the library, because carving replaces pixels in place
     return found if found.sleeps == world.sleeps else None
 
 
@@ -125,7 +128,8 @@ def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
         world._templates.clear()
     bytes_of_body, definition = world._bodies.row_bytes(at), world._definitions.row_bytes(at)
     state = world.effects, world.sleeps, world.library
-    world._templates[key] = Template(*state, kind == STATIC, kind == DYNAMIC, bytes_of_body, definition, parts)
+    masks = [(k, shape) for k, shape in enumerate(shapes) if isinstance(shape, EqualByArrays)]
+    world._templates[key] = Template(*state, kind == STATIC, kind == DYNAMIC, bytes_of_body, definition, parts, masks)
 
 
 def add_like(

@@ -152,6 +152,17 @@ ASSIGNED: dict[str, dict[str, str]] = {
         "damping": "world.drag = {}",
     },
 }
+_OWN_VALUES = {name: f"shape.with_({name}={{}})" for name in ("material", "filter", "sensor")}
+ASSIGNED |= {
+    "PixelMask": {
+        **_OWN_VALUES,
+        "one_way": "mask.with_(one_way={})",
+        "size": "mask.scaled(factor)",
+        **dict.fromkeys(("solid", "words"), "body.carve(…), or body.set_shapes(PixelMask(solid))"),
+    },
+    "TileGrid": {**_OWN_VALUES, "solid": "body.set_cells(cells, solid)"},
+    "Shape": _OWN_VALUES,
+}
 
 
 def text_of(value: Any) -> str:
@@ -464,18 +475,22 @@ def in_place_of_attribute(thing: Any, name: str, value: Any) -> str:
     return f": write {expression.replace('{}', brief(value))}" if expression else ""
 
 
-def unchangeable(expression: str) -> Callable[[Made], Made]:
-    """Return a class decorator that makes every assignment to an attribute raise FrozenInstanceError.
+def unchangeable(expression: str, reason: str = "") -> Callable[[Made], Made]:
+    """Return a class decorator that makes setting and deleting of any attribute raise FrozenInstanceError.
 
-    expression: the code that the message suggests instead; {name} and {value} are replaced by those of the assignment.
+    expression: the code that the message suggests instead, unless ASSIGNED has an expression for the attribute; {name},
+    {value} and {kind} are replaced by those of the assignment and the name of the class. reason: added to the message.
     """
 
-    def refuse(thing: Any, name: str, value: Any) -> None:
-        text = expression.format(name=name, value=brief(value))
-        raise FrozenInstanceError(f"{type(thing).__name__} cannot be changed: write {text}")
+    def refuse(thing: Any, name: str, value: Any = None) -> None:
+        kind = type(thing).__name__
+        hint = in_place_of_attribute(thing, name, value)
+        hint = hint or f": write {expression.format(name=name, value=brief(value), kind=kind)}"
+        raise FrozenInstanceError(f"{kind} cannot be changed{reason}{hint}")
 
     def decorate(made: Made) -> Made:
         type.__setattr__(made, "__setattr__", refuse)
+        type.__setattr__(made, "__delattr__", refuse)
         return made
 
     return decorate

@@ -15,12 +15,13 @@ from physics import checks, hints
 from physics.annotations import Pose
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass, weighed_once
-from physics.shapes.shape import EqualByValue, Parts, Placed, Shape, parts_of, rectangle
+from physics.shapes.shape import EqualByValue, Parts, Placed, Shape, immutable, parts_of, rectangle
 from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
 from physics.tables.body import DYNAMIC
 from physics.tables.shape import BOUNDS
 
 
+@immutable
 @dataclass(frozen=True)
 class Bounds(EqualByValue):
     """A shape that is the world AABB of another shape at its present pose.

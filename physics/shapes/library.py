@@ -22,7 +22,7 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass
 from physics.shapes.outline import is_tiled
 from physics.shapes.placement import place_masks
-from physics.shapes.shape import Shape
+from physics.shapes.shape import EqualByArrays, Shape
 from physics.shapes.values import Circle
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.geometry import (
@@ -63,6 +63,30 @@ class Geometries(NamedTuple):
     masks: list
 
 
+class SameObject:
+    """Dictionary key that is equal only to a key with the same mask or tile grid.
+
+    Their values are not compared, because hashing the pixels after each cut would take longer than the cut.
+    """
+
+    __slots__ = ("shape",)
+
+    def __init__(self, shape: Shape) -> None:
+        self.shape = shape
+
+    def __hash__(self) -> int:
+        return id(self.shape)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the other value is a key with the same object."""
+        return isinstance(other, SameObject) and self.shape is other.shape
+
+
+def key_of(shape: Shape) -> Shape | SameObject:
+    """Return the key of a bare shape in Library.shapes."""
+    return SameObject(shape) if isinstance(shape, EqualByArrays) else shape
+
+
 class Library:
     """Geometry of all shapes of a world as flat arrays. Each distinct geometry is stored once.
 
@@ -76,7 +100,8 @@ class Library:
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
-        self.shapes: dict[Shape, int] = {}  # the geometry row of each shape, stored without material, filter and sensor
+        # The geometry row of each shape, which is stored without material, filter and sensor; see key_of.
+        self.shapes: dict[Shape | SameObject, int] = {}
         self.masks, self.tile_grids = [], []
         self.outlines, self.chain_shapes = [], []  # convex shapes by row, without circles; chains by row
         self.gone = 0  # number of SHAPE rows removed from the world since this library was created
@@ -159,11 +184,12 @@ class Library:
 
     def _row_of(self, shape):
         """Return the geometry row of a shape. Geometry that is not stored yet is added first."""
-        if shape not in self.shapes:
+        key = key_of(shape)
+        if key not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
-            self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
+            self.shapes[key] = add(shape) if add else self._add_hulls([shape])[0]
             self.tables = self._tables()
-        return self.shapes[shape]
+        return self.shapes[key]
 
     def _add_hulls(self, shapes):
         counts = np.array([len(each.points) for each in shapes], np.int64)
@@ -184,7 +210,7 @@ class Library:
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
         for shape, row in library.shapes.items():
-            if shape._is_convex and row in place:
+            if isinstance(shape, Shape) and shape._is_convex and row in place:
                 self.shapes[shape] = place[row]
         self.tables = self._tables()
         return new
@@ -287,12 +313,12 @@ class Library:
         the old mask. Then only the changed tiles are written: O(changed words). The hull of the old mask is kept, so
         the AABB at other angles may be larger than the pixels. Otherwise the new mask is added by `add`.
         """
-        row = self.shapes[old]
+        row = self.shapes[key_of(old)]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
-        if changed is None or not is_tiled(new) or new in self.shapes or users.sum() > 1 or not new.snap:
+        if changed is None or not is_tiled(new) or key_of(new) in self.shapes or users.sum() > 1 or not new.snap:
             return self.add(new)[1]
-        del self.shapes[old]
-        self.shapes[new] = row
+        del self.shapes[key_of(old)]
+        self.shapes[key_of(new)] = row
         self.masks[row] = new
         self.raster_of[row, 1:] = -1
         raster = self.rasters.data[self.raster_of[row, 0]]

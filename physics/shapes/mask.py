@@ -22,7 +22,19 @@ from physics.settings import MASK_ANGLE_BUCKETS, SMOOTH
 from physics.shapes.mass import NOTHING, Mass
 from physics.shapes.outline import OutlinePart, Stretch, outline_by_tile, outline_of, surfaces_of
 from physics.shapes.placement import turn_of_mask
-from physics.shapes.shape import Filter, Material, Parts, Placed, Shape, parts_of, rectangle, turned_parts
+from physics.shapes.shape import (
+    EqualByArrays,
+    Filter,
+    Material,
+    Parts,
+    Placed,
+    Shape,
+    immutable,
+    parts_of,
+    read_only,
+    rectangle,
+    turned_parts,
+)
 from physics.shapes.values import Capsule, Circle, Polygon, bools, solid_blocks
 from physics.tables.body import DYNAMIC
 from physics.tables.shape import MASK, WHOLE_MASK
@@ -31,7 +43,8 @@ LARGEST = 1 << 15  # [px] largest side of a scaled mask: 128 MB of pixels
 TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all angles of a sprite of 64 px
 
 
-class PixelMask(Shape):
+@immutable
+class PixelMask(EqualByArrays):
     """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
     PixelMask.from_surface and PixelMask.from_mask make a PixelMask of a pygame Surface or Mask.
@@ -58,7 +71,18 @@ class PixelMask(Shape):
     >>> rock = world.add_body(PixelMask.from_surface(pygame.Surface((32, 16))), position=(100, 100))
     """
 
+    snap: bool
+    smooth: float
+    one_way: bool
+    size: tuple[int, int]
+    origin: Vec2
+    carved: bool  # whether this mask is the remainder of a carved one
+    _solid: np.ndarray  # None for a carved mask until its pixels are read
+    _turned: dict[int, Turned]  # by angle bucket
+    _blocks: dict[int, list[tuple[int, int, int, int]]]  # by angle bucket
+    fitted: dict[Any, Any]  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
     _kind, _has_mass = MASK, True
+    _array_names, _value_names = ("words",), ("size", "origin", "snap", "smooth", "one_way")
 
     @explained
     def __init__(
@@ -71,20 +95,20 @@ class PixelMask(Shape):
     ) -> None:
         solid = bools("solid", solid)
         height, width = solid.shape
-        self.snap = checks.flag("snap", snap)
-        self.smooth = checks.number("smooth", smooth, low=0.0)
-        self.one_way = checks.flag("one_way", one_way)
-        self.size = (width, height)
-        self.origin = Vec2(width / 2.0, height / 2.0) if origin is None else checks.vector("origin", origin)
-        self.carved = False  # whether this mask is the remainder of a carved one
-        solid.flags.writeable = False
-        self._solid: np.ndarray | None = solid
+        vars(self).update(
+            snap=checks.flag("snap", snap),
+            smooth=checks.number("smooth", smooth, low=0.0),
+            one_way=checks.flag("one_way", one_way),
+            size=(width, height),
+            origin=Vec2(width / 2.0, height / 2.0) if origin is None else checks.vector("origin", origin),
+            carved=False,
+            _solid=read_only(solid),
+        )
         self._forget()
 
     def _forget(self):
         """Clear all cached values that are derived from the pixels."""
-        self._turned, self._blocks = {}, {}
-        self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
+        vars(self).update(_turned={}, _blocks={}, fitted={})
 
     def with_tiles(self, tiles: PixelTiles) -> PixelMask:
         """Return a mask of the same size with the given pixels, after carving. All other values are those of this mask.
@@ -126,7 +150,7 @@ class PixelMask(Shape):
         pair = self.fitted["one way"]
         if wanted not in pair:
             pair[wanted] = copy.copy(self.bare)
-            pair[wanted].one_way = wanted
+            vars(pair[wanted])["one_way"] = wanted
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> PixelMask:
@@ -145,8 +169,7 @@ class PixelMask(Shape):
     def solid(self) -> np.ndarray:
         """Solid pixels [row, col] bool, read-only."""
         if self._solid is None:
-            self._solid = self.tiles.solid
-            self._solid.flags.writeable = False
+            vars(self)["_solid"] = read_only(self.tiles.solid)
         return self._solid
 
     @cached_property
@@ -303,6 +326,8 @@ class PixelMask(Shape):
         known = self._turned
         if bucket not in known:
             known[bucket] = turn(self.solid, self.origin, bucket, MASK_ANGLE_BUCKETS)
+            for array in (known[bucket].solid, known[bucket].source_x, known[bucket].source_y):
+                read_only(array)
             kept = sum(each.solid.size for each in known.values())
             while kept > TURNED_KEPT and len(known) > 1:  # drop the oldest: a rotating body returns to it last
                 kept -= known.pop(next(iter(known))).solid.size
@@ -319,8 +344,8 @@ class PixelMask(Shape):
 
     @cached_property
     def words(self) -> np.ndarray:
-        """Pixels as bits, (h, ceil(w/64)) uint64: bit b of word k in a row is the pixel in column 64k + b."""
-        return self.tiles.packed[: self.size[1]] if "tiles" in vars(self) else packed(self.solid)
+        """Pixels as bits, (h, ceil(w/64)) uint64, read-only. Bit b of word k in a row is column 64k + b."""
+        return read_only(self.tiles.packed[: self.size[1]] if "tiles" in vars(self) else packed(self.solid))
 
     @cached_property
     def _sums(self):

@@ -4,6 +4,8 @@ import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import blake2b
 from typing import Any, ClassVar, NamedTuple, Never, Self
 
 import numpy as np
@@ -215,7 +217,16 @@ class Placed(NamedTuple):
 
 # ---- protocol --------------------------------------------------------------------------------------------------------
 
+immutable = hints.unchangeable("body.set_shapes({kind}(…)), with a new {kind}", ", as shapes are immutable")
 
+
+def read_only(array: np.ndarray) -> np.ndarray:
+    """Make an array read-only, and return it."""
+    array.flags.writeable = False
+    return array
+
+
+@immutable
 class Shape:
     """Base of all shapes. A shape is an immutable value in body space [px], x right, y down, without a pose.
 
@@ -363,6 +374,7 @@ class Shape:
         return self
 
 
+@immutable
 @dataclass(frozen=True)
 class EqualByValue(Shape):
     """Base of shapes that are equal if their geometry, material, filter and sensor are equal."""
@@ -370,3 +382,33 @@ class EqualByValue(Shape):
     material: Material | None = field(default=None, init=False, repr=False)
     filter: Filter | None = field(default=None, init=False, repr=False)
     sensor: bool | None = field(default=None, init=False, repr=False)
+
+
+class EqualByArrays(Shape):
+    """Base of shapes made of arrays. They are equal if their arrays, material, filter and sensor are equal.
+
+    The arrays are read-only. The hash is computed when it is first needed, and stored.
+    """
+
+    _array_names: ClassVar[tuple[str, ...]] = ()  # attributes that are compared as arrays; the first one is hashed
+    _value_names: ClassVar[tuple[str, ...]] = ()  # other attributes that are compared
+
+    @cached_property
+    def _hash(self) -> int:
+        # It depends on no random seed of the process, so a pickled shape keeps it; copies by with_ share it.
+        first: np.ndarray = getattr(self, self._array_names[0])
+        return int.from_bytes(blake2b(first.tobytes(), digest_size=7).digest(), "little")
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the other value is a shape of the same type with equal values."""
+        if self is other:
+            return True
+        if type(self) is not type(other):
+            return NotImplemented
+        names = (*self._value_names, "material", "filter", "sensor")
+        if any(getattr(self, name) != getattr(other, name) for name in names):
+            return False
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in self._array_names)

@@ -20,7 +20,17 @@ from physics.math2d import Vec2
 from physics.settings import MAX_CORNERS
 from physics.shapes.mass import Mass, convex_mass
 from physics.shapes.placement import write_hull
-from physics.shapes.shape import EqualByValue, Material, Parts, Placed, Shape, parts_of, rectangle
+from physics.shapes.shape import (
+    EqualByArrays,
+    EqualByValue,
+    Material,
+    Parts,
+    Placed,
+    immutable,
+    parts_of,
+    read_only,
+    rectangle,
+)
 from physics.tables.body import DYNAMIC, KINDS
 from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, POLYGON, SEGMENT, TILES
 
@@ -94,6 +104,7 @@ class Convex(EqualByValue):
         return cls(**given, **facts)
 
 
+@immutable
 @dataclass(frozen=True)
 class Circle(Convex):
     """A disc.
@@ -120,6 +131,7 @@ class Circle(Convex):
         return (self.center,)
 
 
+@immutable
 @dataclass(frozen=True)
 class Capsule(Convex):
     """A capsule: all points within a distance `radius` of the line from a to b.
@@ -153,6 +165,7 @@ class Capsule(Convex):
         return self.a, self.b
 
 
+@immutable
 @dataclass(frozen=True)
 class Polygon(Convex):
     """A convex polygon, rounded by a radius.
@@ -255,7 +268,8 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 # ---- tiles -----------------------------------------------------------------------------------------------------------
 
 
-class TileGrid(Shape):
+@immutable
+class TileGrid(EqualByArrays):
     """A grid of square tiles of one size, for static and kinematic bodies at angle 0.
 
     solid: solid tiles, bool [row, col]. The origin of body space is the top left corner of tile [0, 0].
@@ -269,36 +283,39 @@ class TileGrid(Shape):
     one-way and slope; TypeError for arrays of other types.
     """
 
+    solid: np.ndarray
+    tile_size: float
+    one_way: np.ndarray
+    slopes: np.ndarray
     _kind, _is_ground, _may_turn = TILES, True, False
+    _array_names, _value_names = ("solid", "one_way", "slopes"), ("tile_size",)
 
     @explained
     def __init__(
         self, solid: ArrayLike, tile_size: float, one_way: ArrayLike | None = None, slopes: ArrayLike | None = None
     ) -> None:
-        self.solid = bools("solid", solid)
-        self.tile_size = checks.number("tile_size", tile_size, above=0.0)
-        self.one_way = bools("one_way", one_way if one_way is not None else np.zeros_like(self.solid))
+        solid, tile_size = bools("solid", solid), checks.number("tile_size", tile_size, above=0.0)
+        one_way = bools("one_way", one_way if one_way is not None else np.zeros_like(solid))
         try:
-            slopes = np.zeros(self.solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
+            slopes = np.zeros(solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
         except (TypeError, ValueError):
             raise TypeError(f"slopes must be an array [row, col, 2] of numbers (got {type(slopes).__name__})") from None
-        if self.one_way.shape != self.solid.shape:
-            raise ValueError(f"one_way must have the shape of solid, {self.solid.shape} (got {self.one_way.shape})")
-        if slopes.shape != self.solid.shape + (2,):
-            raise ValueError(f"slopes must have shape {self.solid.shape + (2,)} (got {slopes.shape})")
+        if one_way.shape != solid.shape:
+            raise ValueError(f"one_way must have the shape of solid, {solid.shape} (got {one_way.shape})")
+        if slopes.shape != solid.shape + (2,):
+            raise ValueError(f"slopes must have shape {solid.shape + (2,)} (got {slopes.shape})")
         bad = ~((slopes >= 0.0) & (slopes <= 1.0)).all(axis=2)
         if bad.any():
             at = tuple(int(v) for v in np.argwhere(bad)[0])
             raise ValueError(f"slopes[{at[0]}, {at[1]}] must be within 0..1 (got {slopes[at].tolist()})")
-        kinds = self.solid.astype(int) + self.one_way + (slopes > 0.0).any(axis=2)
+        kinds = solid.astype(int) + one_way + (slopes > 0.0).any(axis=2)
         if (kinds > 1).any():
             at = tuple(int(v) for v in np.argwhere(kinds > 1)[0])
             raise ValueError(
                 f"cell [{at[0]}, {at[1]}] must be one of solid, one_way and slope (got {kinds[at]} of them)"
             )
-        self.slopes = slopes
-        for array in (self.solid, self.one_way, self.slopes):
-            array.flags.writeable = False
+        arrays = {"solid": solid, "one_way": one_way, "slopes": slopes}
+        vars(self).update({name: read_only(array) for name, array in arrays.items()}, tile_size=tile_size)
 
     @cached_property
     def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
@@ -420,6 +437,7 @@ def _check_length(name, a, b):
         raise ValueError(f"{name} must be two points with a length between them (got {a} and {b})")
 
 
+@immutable
 @dataclass(frozen=True)
 class Segment(Convex):
     """The line from a to b, solid from both sides, without mass.
@@ -444,6 +462,7 @@ class Segment(Convex):
         return self.a, self.b
 
 
+@immutable
 @dataclass(frozen=True)
 class Chain(EqualByValue):
     """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
