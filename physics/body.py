@@ -67,7 +67,7 @@ class Body(Handle):
 
     @angle.setter
     def angle(self, value: float) -> None:
-        teleport.move_to(self._world, self._id, None, checks.number("angle", value))
+        teleport.move_to(self._world, self._id, None, checks.angle("angle", value))
 
     @property
     def center(self) -> Vec2:
@@ -115,7 +115,7 @@ class Body(Handle):
             self.world,
             self.id,
             checks.position("position", position),
-            None if angle is None else checks.number("angle", angle),
+            None if angle is None else checks.angle("angle", angle),
         )
 
     def set_target(self, position: Pair, angle: float | None = None) -> None:
@@ -342,10 +342,11 @@ class Body(Handle):
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
-        """Add a quarantined body to the simulation again, at rest at its last finite pose.
+        """Add a quarantined body to the simulation again, at rest at its last pose within range.
 
-        A body is quarantined (disabled) when one of its numbers is not finite or out of range. Other bodies are
-        unchanged.
+        A body is quarantined (disabled) when one of its numbers is not finite or out of range; a position or angle is
+        out of range from 2**52 px or rad on. Pose, velocity and forces are then reset; set any other such number, such
+        as gravity_scale, to a valid value before this call. Other bodies are unchanged.
         """
         edit.restore(self.world, self.id)
 

@@ -166,6 +166,18 @@ def position(name: str, value: Any) -> Vec2:
     return found
 
 
+def angle(name: str, value: Any) -> float:
+    """Convert the angle of a body [rad] to a float, and return it. It must be below POSITION_LIMIT in magnitude.
+
+    Above this limit, adjacent doubles differ by 1 rad and more. Raises TypeError for a value that is not a number, and
+    ValueError for an angle at or beyond the limit. name: name of the argument, for messages.
+    """
+    found = number(name, value)
+    if abs(found) >= POSITION_LIMIT:
+        raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} rad of 0 (got {shown(value)})")
+    return found
+
+
 def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
     """Convert ids to a one-dimensional int64 array, and return it.
 
@@ -272,11 +284,23 @@ def positions(name: str, value: Any) -> np.ndarray:
     Raises TypeError for a value that is not an array of numbers; ValueError for another shape, a number that is not
     finite, and a coordinate at or beyond the limit. name: name of the argument, for messages.
     """
-    array = columns(name, value)
+    return _limited(name, columns(name, value), "px of the origin")
+
+
+def angles(name: str, value: Any, count: int | None = None, like: str = "positions") -> np.ndarray:
+    """Copy angles of bodies [rad] to a float64 array (n,), and return it. They must be within POSITION_LIMIT.
+
+    count, like: see columns. Raises TypeError for a value that is not an array of numbers; ValueError for another
+    shape, a number that is not finite, and an angle at or beyond the limit. name: name of the argument, for messages.
+    """
+    return _limited(name, columns(name, value, count, width=1, like=like), "rad of 0")
+
+
+def _limited(name, array, place):
     far = np.abs(array) >= POSITION_LIMIT
     if far.any():
         row = int(np.argwhere(far)[0][0])
-        raise ValueError(f"{name}[{row}] must lie within {POSITION_LIMIT:g} px of the origin (got {array[row]!r})")
+        raise ValueError(f"{name}[{row}] must lie within {POSITION_LIMIT:g} {place} (got {array[row].tolist()!r})")
     return array
 
 

@@ -62,7 +62,7 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
     world._unlocked()
     row = world._body_row(identity)
     x, y = checks.position("position", position)
-    turned = float(row["angle"]) if angle is None else checks.number("angle", angle)
+    turned = float(row["angle"]) if angle is None else checks.angle("angle", angle)
     if row["kind"] != KINEMATIC:
         raise ValueError(f"set_target needs a kinematic body; body {identity} is not (got {checks.shown(position)})")
     turn = turned - float(row["angle"])

@@ -58,8 +58,8 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
     """Check the arguments of `move`. Write the row numbers of the bodies, and those of the dynamic bodies among them.
 
     Return the number of dynamic bodies, or -1 for invalid arguments: an unknown or repeated id, a number that is not
-    finite, a coordinate of at least `limit` [px], or a velocity other than 0 of a static body. ids, rows_out,
-    dynamic_out: (n,) int64; motions: a Motions; bodies: BODY rows; marks_inout: scratch (bodies,) bool, all
+    finite, a coordinate or angle of at least `limit` [px, rad], or a velocity other than 0 of a static body. ids,
+    rows_out, dynamic_out: (n,) int64; motions: a Motions; bodies: BODY rows; marks_inout: scratch (bodies,) bool, all
     False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
     """
     found = 0
@@ -75,7 +75,7 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
         known += 1
         sound = abs(motions.positions[k, 0]) < limit and abs(motions.positions[k, 1]) < limit
         if motions.turns:
-            sound = sound and abs(motions.angles[k]) < math.inf
+            sound = sound and abs(motions.angles[k]) < limit
         if motions.speeds:
             vx, vy = motions.velocities[k, 0], motions.velocities[k, 1]
             sound = sound and abs(vx) < math.inf and abs(vy) < math.inf
@@ -174,7 +174,7 @@ def _explain(world, ids, motions):
             f"positions[{k}] must lie within {POSITION_LIMIT:g} px of the origin (got {tuple(positions[k].tolist())})"
         )
     if motions.turns:
-        checks.columns("angles", motions.angles, width=1)
+        checks.angles("angles", motions.angles)
     velocities = checks.columns("velocities", motions.velocities)
     for k in np.flatnonzero((world.bodies["kind"][rows] == STATIC) & velocities.any(axis=1)).tolist():
         raise ValueError(f"velocities[{k}] must be (0, 0) for static body {ids[k]} (got {velocities[k].tolist()})")

@@ -44,7 +44,7 @@ from physics.math2d import Vec2
 from physics.queries import batches, casts
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
-from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
+from physics.settings import PIXELS_PER_METER, STANDARD_GRAVITY, tolerances
 from physics.shapes.kinds import checked_shape
 from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
@@ -279,7 +279,7 @@ class World(WorldState):
         if others:
             raise hints.unexpected("World.add_body", hints.argument_names(self.add_body), others)
         position, velocity = checks.position("position", position), checks.vector("velocity", velocity)
-        angle, spin = checks.number("angle", angle), checks.number("angular_velocity", angular_velocity)
+        angle, spin = checks.angle("angle", angle), checks.number("angular_velocity", angular_velocity)
         values = mass, material, filter, sensor, bullet, continuous, fixed_rotation, gravity_scale, allow_sleep
         key = None if tier is not None or self._stepping else body_templates.key_of(shapes, kind, *values)
         known = body_templates.find(self, key)
@@ -322,15 +322,11 @@ class World(WorldState):
         if wrong := {name: value for name, value in definition.items() if name not in edit.BodyDef._fields}:
             names = ("shape", "positions", "velocities", "angles", *edit.BodyDef._fields)
             raise hints.unexpected("World.add_bodies", names, wrong)
-        positions = checks.columns("positions", positions)
-        if np.any(np.abs(positions) >= POSITION_LIMIT):
-            raise ValueError(
-                f"positions must lie within {POSITION_LIMIT:g} px of the origin (got {positions.tolist()})"
-            )
+        positions = checks.positions("positions", positions)
         n = len(positions)
         checked_shape("shape", shape)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
-        angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
+        angles = np.zeros(n) if angles is None else checks.angles("angles", angles, n)
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: BodyRef) -> None:

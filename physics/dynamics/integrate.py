@@ -95,16 +95,22 @@ def make_position_pass(rotation: bool) -> Callable:
 
 
 @subkernel
+def is_within_limits(body):
+    """Return whether position and angle of a body are within POSITION_LIMIT, where a double still resolves them."""
+    return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
+
+
+@subkernel
 def put_center(u, v, body_inout):
     """Write the world centre of mass of a BODY row: its origin plus the offset (u, v) [px].
 
-    If the pose is finite, it is also stored as the last finite pose (settled_x, settled_y, settled_angle).
-    has_current_contacts is cleared.
+    If the pose is within POSITION_LIMIT, it is also stored as the last one that was (settled_x, settled_y,
+    settled_angle). has_current_contacts is cleared.
     """
     b = body_inout
     b.center_x, b.center_y = b.x + u, b.y + v
     b.has_current_contacts = False
-    if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
+    if is_within_limits(b):
         b.settled_x, b.settled_y = b.x, b.y
         b.settled_angle = b.angle
 
@@ -150,7 +156,7 @@ def write_center(bodies: Table, at: int) -> None:
         y + columns["local_center_y"][at],
     )
     columns["has_current_contacts"][at] = False
-    if x - x == 0.0 and y - y == 0.0:
+    if abs(x) < POSITION_LIMIT and abs(y) < POSITION_LIMIT:
         columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
 
 
@@ -216,7 +222,7 @@ def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> Non
 
 NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK = range(4)
 REASONS = (
-    "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be",
+    "a number of the body is not finite, beyond what a double resolves, or wrongly below 0",
     "a number of one of its shapes is not finite, too large, or below 0 where it may not be",
     "a TileGrid cannot turn: its angle and angular velocity must be 0",
     "a number of its character is not finite",
@@ -247,12 +253,6 @@ def disable_body(body_inout):
     b.force_x, b.force_y, b.torque = 0.0, 0.0, 0.0
     b.awake = False
     b.quarantined = True
-
-
-@subkernel
-def is_within_limits(body):
-    """Return whether position and angle of a body are within POSITION_LIMIT, where a double still resolves them."""
-    return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
@@ -321,7 +321,7 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies with numbers that are out of range or not finite, and list them. Return their number.
 
-    A body whose pose is out of range is moved back to its last finite pose. rows: row numbers in BODY; broken_out
+    A body whose pose is out of range is moved back to its last pose within range. rows: row numbers in BODY; broken_out
     (bodies, 2): row number and reason (index of REASONS); course: see Course.
     """
     found = 0

@@ -47,7 +47,7 @@ BODY = in_lines(
         ("previous_x", np.float64),  # [px, rad] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
-        ("settled_x", np.float64),  # [px, rad] last pose that was finite
+        ("settled_x", np.float64),  # [px, rad] last pose within POSITION_LIMIT
         ("settled_y", np.float64),
         ("settled_angle", np.float64),
         ("fraction", np.float64),  # fraction of this step's motion before the first impact; 1 without an impact

@@ -18,6 +18,9 @@ from physics import (
     SweepAndPrune,
     World,
 )
+from physics.dynamics.integrate import REASONS
+from physics.settings import POSITION_LIMIT
+from physics.tables.contact import QUARANTINE
 
 ALL = Effects(
     response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True, sensors=True
@@ -169,6 +172,94 @@ def test_positions_without_pixels_are_refused_or_quarantined(x):
     world.step()
     assert world.events.quarantined["body"].tolist() == ids[:2].tolist() and len(world.contacts) == 0
     assert world.bodies["x"].tolist() == [0.0, 50.0, 100.0]
+
+
+def weightless(effects):
+    return World(effects, gravity=(0, 0)) if effects.gravity else World(effects)
+
+
+@pytest.mark.parametrize("effects", [ALL, Effects.rigid_bodies(), Effects.detection()], ids=["all", "rigid", "none"])
+@pytest.mark.parametrize("how", ["written", "touched", "asleep"])
+@pytest.mark.parametrize(
+    "column, value",
+    [(column, value) for column in ("x", "y", "angle") for value in (math.nan, math.inf, -1e300, 1e20, 2.0**52)],
+)
+def test_a_pose_out_of_range_goes_back_to_the_last_one_within_it(effects, how, column, value):
+    """Also with touch(), and of a sleeping body: then restore() succeeds, and the body is not quarantined again."""
+    world = weightless(effects)
+    body = world.add_body(Circle(5.0), position=(10, 20), angle=0.25, kind="static" if how == "asleep" else "dynamic")
+    other = world.add_body(Polygon.box(8, 8), position=(100, 20))
+    for _ in range(3):
+        world.step()
+    world.bodies[column][world.rows(body)] = value
+    if how != "written":
+        world.touch(body)
+    world.step()
+    assert world.events.quarantined["body"].tolist() == [body.id]
+    assert (body.position, body.angle) == ((10, 20), 0.25) and body.velocity == (0, 0)
+    assert body.bounds == (5, 15, 15, 25)
+    for _ in range(2):
+        world.step()
+    assert len(world.events.quarantined) == 0 and other.position == (100, 20)
+    body.restore()
+    for _ in range(3):
+        world.step()
+        assert len(world.events.quarantined) == 0
+    assert (body.position, body.angle) == ((10, 20), 0.25) and world.query_point((10, 20)) == [body]
+
+
+@pytest.mark.parametrize("column", ["vx", "angular_velocity", "force_x"])
+def test_a_step_that_leaves_the_range_ends_at_the_pose_before_it(column):
+    """Numbers that are just within their limits may carry a body out of range: it stays where it was."""
+    world = World(ALL, gravity=(0, 0))
+    body = world.add_body(Polygon.box(4, 4), position=(3, 4), angle=0.5)
+    world.step()
+    world.bodies[column][0] = 1e18
+    for _ in range(3):
+        world.step()
+        assert abs(body.position.x) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
+    assert (body.position, body.angle) == ((3, 4), 0.5)
+
+
+FAR = 2.0**52
+FAR_CALLS = {
+    "add_body position": (lambda w, b: w.add_body(Circle(5), position=(FAR, 0)), "position", "px"),
+    "add_body angle": (lambda w, b: w.add_body(Circle(5), angle=-FAR), "angle", "rad"),
+    "add_body box": (lambda w, b: w.add_body(Polygon.box(5, 5), angle=1e30), "angle", "rad"),
+    "add_bodies positions": (lambda w, b: w.add_bodies(Circle(5), [(0, 0), (0, 1e20)]), r"positions\[1\]", "px"),
+    "add_bodies angles": (lambda w, b: w.add_bodies(Circle(5), [(0, 0)] * 2, angles=[0, 1e16]), r"angles\[1\]", "rad"),
+    "position": (lambda w, b: setattr(b, "position", (0, -FAR)), "position", "px"),
+    "angle": (lambda w, b: setattr(b, "angle", 1e30), "angle", "rad"),
+    "move_to": (lambda w, b: b.move_to((0, 0), FAR), "angle", "rad"),
+    "move positions": (lambda w, b: w.move([b], [(1e16, 0)]), r"positions\[0\]", "px"),
+    "move angles": (lambda w, b: w.move([b], [(0, 0)], [FAR]), r"angles\[0\]", "rad"),
+    "set_target": (lambda w, b: w.body(1).set_target((0, 0), FAR), "angle", "rad"),
+}
+
+
+@pytest.mark.parametrize("call, name, unit", FAR_CALLS.values(), ids=FAR_CALLS)
+def test_calls_refuse_a_pose_out_of_range_and_name_the_limit(call, name, unit):
+    world = World(ALL)
+    body = world.add_body(Circle(5.0), position=(1, 2), angle=0.5)
+    world.add_body(Circle(5.0), position=(50, 2), kind="kinematic")
+    before = world.digest()
+    with pytest.raises(ValueError, match=rf"^{name} must lie within 4.5036e\+15 {unit} of "):
+        call(world, body)
+    assert world.digest() == before and len(world) == 2
+
+
+@pytest.mark.parametrize("value", [0.0, -3, math.nextafter(FAR, 0.0), np.float32(2.0**40)])
+def test_poses_within_the_range_are_taken(value):
+    world = World(Effects())
+    body = world.add_body(Circle(5.0), position=(value, 0), angle=value)
+    body.position, body.angle = (0, value), value
+    world.move([body], [(value, value)], [value])
+    world.step()
+    assert (body.position, body.angle) == ((value, value), value) and len(world.events.quarantined) == 0
+
+
+def test_reasons_fit_their_column():
+    assert max(map(len, REASONS)) <= QUARANTINE["reason"].itemsize // 4
 
 
 def test_many_broken_at_once():

@@ -24,7 +24,7 @@ REFUSED = {
     "an id beyond all": (KeyError, "must be a Body or the id of one", lambda: World(PILES).remove_body(2**62)),
     "places far out": (
         ValueError,
-        "positions must lie within",
+        "positions[0] must lie within",
         lambda: World(PILES).add_bodies(Circle(1), [(POSITION_LIMIT, 0.0)]),
     ),
     "fewer poses": (

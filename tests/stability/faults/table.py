@@ -8,7 +8,7 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[3]
 HERE = "tests/stability/faults"
 INTRODUCTION = """\
-Each fault is deliberate. *Disabled*: the body is taken out of the simulation at its last finite pose, at rest, and
+Each fault is deliberate. *Disabled*: the body is taken out of the simulation at its last pose in range, at rest, and
 reported by id and reason in `world.events.quarantined`, until `body.restore()`; its neighbours continue to the bit as
 if it had been removed. *Refused*: ValueError or TypeError with the argument, its value and what is allowed; nothing has
 changed.
