@@ -262,6 +262,7 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     for name, each in (("bodies_a", bodies_a), ("bodies_b", bodies_b)):
         if each is not None and not isinstance(each, Iterable):
             raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
+        checks.in_order(name, each, "bodies_b" if name == "bodies_a" else "bodies_a")
     first, second = (None if each is None else [*each] for each in (bodies_a, bodies_b))
     n = len(first or second or ())
     users = checks.users(settings.pop("user", None), n)

@@ -3,7 +3,7 @@
 import math
 import numbers
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, TypeVar
+from typing import Any, Never, TypeVar
 
 import numpy as np
 
@@ -193,6 +193,32 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
     return array
 
 
+def in_order(name: str, value: Any, other: str) -> None:
+    """Raise TypeError for a set, whose order is arbitrary, as an argument that is paired with another one by order.
+
+    name, other: names of the two arguments, for the message.
+    """
+    if isinstance(value, (set, frozenset)):
+        raise TypeError(
+            f"{name} must be a list, tuple or array, in the order of {other} (got {shown(value)}): write a list, "
+            "because a set has no order"
+        )
+
+
+def independent(advice: str) -> Callable[[Any], Never]:
+    """Return a method `__copy__` that raises TypeError, because a shallow copy would share arrays with the original.
+
+    advice: the code that the message suggests instead of copy.copy().
+    """
+
+    def __copy__(thing: Any) -> Never:
+        raise TypeError(
+            f"a {type(thing).__name__} cannot be copied by copy.copy(), as both would share its arrays: write {advice}"
+        )
+
+    return __copy__
+
+
 def whole(name: str, value: Any, low: int, high: int) -> int:
     """Convert a whole number to an int, and return it. It must be from low to high, both included.
 
@@ -232,26 +258,29 @@ def choice(name: str, value: Any, allowed: Sequence[Word]) -> Word:
     raise wrong(f"{name} must be one of {', '.join(allowed)} (got {shown(value)}){hint}")
 
 
-def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
+def columns(
+    name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions", of: str = ""
+) -> np.ndarray:
     """Copy finite numbers to a C-ordered float64 array of shape (n, width), or (n,) for width 1, and return it.
 
     count: the required n; None: any n. like: name of the argument that has `count` rows, for messages; name: name of
-    this argument. Raises TypeError for a value that is not an array of numbers, and ValueError for another shape or a
-    number that is not finite.
+    this argument; of: name of the shape or function that takes it, for hints. Raises TypeError for a value that is not
+    an array of numbers, and ValueError for another shape or a number that is not finite.
     """
     try:
         array = np.array(value)
     except ValueError:
         raise TypeError(f"{name} must be an array of numbers (got rows of different lengths)") from None
-    if array.size and array.dtype.kind not in "iuf":
-        hint = hints.in_place_of_points(name, value)
-        raise TypeError(f"{name} must be an array of numbers (got {array.dtype} in a {type(value).__name__}){hint}")
-    array = np.array(array, dtype=np.float64, order="C")
     shape = f"(n, {width})" if width > 1 else "(n,)"
+    if array.ndim == 0 or (array.size and array.dtype.kind not in "iuf"):
+        got = f"an array of {array.dtype}" if isinstance(value, np.ndarray) else shown(value)
+        hint = hints.in_place_of_points(name, value, count, of)
+        raise TypeError(f"{name} must be an array of numbers {shape} (got {got}){hint}")
+    array = np.array(array, dtype=np.float64, order="C")
     if width > 1 and array.size == 0:
         array = array.reshape(0, width)
     if array.ndim != (2 if width > 1 else 1) or (width > 1 and array.shape[1] != width):
-        hint = hints.in_place_of_points(name, value, count)
+        hint = hints.in_place_of_points(name, value, count, of)
         raise ValueError(f"{name} must have shape {shape} (got {array.shape}){hint}")
     if count is not None and len(array) != count:
         raise ValueError(f"{name} must have {count} rows, as {like} has (got {len(array)})")

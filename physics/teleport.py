@@ -130,6 +130,7 @@ def move(world: WorldState, ids: Any, positions: Points, angles: Numbers | None,
     ids: Bodies or ids. Raises the errors of World.move; no body is then changed.
     """
     world._unlocked()
+    checks.in_order("ids", ids, "positions")
     ids = world._identities("ids", ids, repeats=True)
     n = len(ids)
     motions = Motions(

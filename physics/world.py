@@ -176,6 +176,8 @@ class World(WorldState):
         self._broadphase = strategy
         self._plan()
 
+    __copy__ = checks.independent("copy.deepcopy(world), or world.snapshot() for world.restore()")
+
     def __getstate__(self):
         if self._removed:
             self._drop_removed()
@@ -353,7 +355,7 @@ class World(WorldState):
     ) -> None:
         """Teleport many bodies in one call, like Body.move_to. The bodies and the islands that they touched wake.
 
-        ids: n Bodies or ids, each once. The targets of these bodies are cancelled.
+        ids: n Bodies or ids in order, each once; not a set. The targets of these bodies are cancelled.
         positions: new origins, (n, 2) [px].
         angles: new angles, (n,) [rad]; None: unchanged.
         velocities: new velocities, (n, 2) [px/s]; None: unchanged.
@@ -411,8 +413,8 @@ class World(WorldState):
         """Add one joint between each of n pairs of bodies, and return the ids (n,) int64 of the joints.
 
         kind: the class of all joints, such as Revolute.
-        bodies_a, bodies_b: n Bodies or ids; an entry None means the world, and None instead of the sequence means the
-            world for all joints. For gears: the n sides A and n sides B, as Joints, ids of joints, or Bodies.
+        bodies_a, bodies_b: n Bodies or ids in order; an entry None means the world, and None instead of the sequence
+            means the world for all joints. For gears: the n sides A and n sides B, as Joints, ids of joints, or Bodies.
         **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
             pulley wheels (ground_a, ground_b) are arrays (n, 2) [px]; axis may be an array (n, 2), user a list of n.
 

@@ -1,5 +1,6 @@
 """WorldState, the tables and settings of a world, and Profile, the times and work counters of a step."""
 
+import copy
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -49,6 +50,9 @@ class Profile:
         self.work.fill(0)
         self._names, self._spent = names, []
         return self._spent
+
+    def __copy__(self) -> "Profile":
+        return copy.deepcopy(self)  # the next step overwrites the counters of the original
 
     def __repr__(self):
         """Return a text with the time of the last step, its longest stage, and the counters that are not 0."""

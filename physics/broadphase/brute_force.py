@@ -86,6 +86,8 @@ class BruteForce:
         """
         return find_pairs(self.fresh(), lower, upper)
 
+    __copy__ = checks.independent("copy.deepcopy(…), or BruteForce()")
+
     def fresh(self) -> "BruteForce":
         """Return a new broad phase with the same settings and without proxies."""
         return BruteForce(self.incremental)

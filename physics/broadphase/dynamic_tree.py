@@ -581,6 +581,8 @@ class DynamicTree:
         """
         return find_pairs(self.fresh(), lower, upper)
 
+    __copy__ = checks.independent("copy.deepcopy(…), or DynamicTree()")
+
     def fresh(self) -> "DynamicTree":
         """Return a new broad phase with the same settings and without proxies."""
         return DynamicTree(self.width, self.margin)

@@ -453,6 +453,8 @@ class SpatialHashGrid:
         """
         return find_pairs(self.fresh(), lower, upper)
 
+    __copy__ = checks.independent("copy.deepcopy(…), or SpatialHashGrid()")
+
     def fresh(self) -> "SpatialHashGrid":
         """Return a new broad phase with the same settings and without proxies."""
         return SpatialHashGrid(self.cell)

@@ -321,6 +321,8 @@ class SweepAndPrune:
         """
         return find_pairs(self.fresh(), lower, upper)
 
+    __copy__ = checks.independent("copy.deepcopy(…), or SweepAndPrune()")
+
     def fresh(self) -> "SweepAndPrune":
         """Return a new broad phase with the same settings and without proxies."""
         return SweepAndPrune(self.axes)

@@ -35,7 +35,7 @@ def hull(points: Points) -> Polygon:
     are extended until they meet. The polygon contains all points, up to rounding errors. Raises ValueError for fewer
     than three points and for points on one line; TypeError if points is not an array of numbers.
     """
-    points = checks.columns("points", points)
+    points = checks.columns("points", points, of="hull")
     corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
     if len(corners) < 3:
         raise ValueError(
@@ -57,7 +57,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
     parts of more than 16 corners are divided further. Raises ValueError for edges that cross or touch (the message
     names both), for zero area, and for a hole that is not inside; TypeError if points or holes are not numbers.
     """
-    outer = checks.columns("points", points)
+    outer = checks.columns("points", points, of="decompose")
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
         raise TypeError(f"holes must be a list of polygons (got {checks.shown(holes)})")
     inner = [checks.columns(f"holes[{k}]", hole) for k, hole in enumerate(holes)]

@@ -182,10 +182,11 @@ class Polygon(Convex):
 
     @explained
     def __init__(self, points: Points, radius: float = 0.0) -> None:
-        points = checks.columns("points", points)
+        points = checks.columns("points", points, of="Polygon")
         object.__setattr__(self, "radius", checks.number("radius", radius, low=0.0))
         if not 3 <= len(points) <= MAX_CORNERS:
-            raise ValueError(f"points must be 3..{MAX_CORNERS} corners (got {len(points)})")
+            hint = ": write Segment(a, b), or Capsule(a, b, radius)" if len(points) == 2 else ""
+            raise ValueError(f"points must be 3..{MAX_CORNERS} corners (got {len(points)}){hint}")
         edges = np.roll(points, -1, axis=0) - points
         following = np.roll(edges, -1, axis=0)
         turns = edges[:, 0] * following[:, 1] - edges[:, 1] * following[:, 0]
@@ -405,7 +406,8 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
         raise TypeError(f"{name} must be an array [row, col] of bool (got rows of different lengths)") from None
     if array.ndim != 2:
         got = f"shape {array.shape}" if array.ndim > 2 else checks.shown(value)
-        raise ValueError(f"{name} must be an array [row, col] of bool (got {got}){hints.in_place_of_solid(value)}")
+        wrong = ValueError if array.ndim else TypeError
+        raise wrong(f"{name} must be an array [row, col] of bool (got {got}){hints.in_place_of_solid(value)}")
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
         raise TypeError(f"{name} must be an array of bool (got {array.dtype}){hints.in_place_of_solid(value)}")
     return np.ascontiguousarray(array != 0)
@@ -493,7 +495,7 @@ class Chain(EqualByValue):
         ghosts: Sequence[Pair | None] | None = None,
         materials: Sequence[Material] | None = None,
     ) -> None:
-        points = tuple(Vec2(x, y) for x, y in checks.columns("points", points).tolist())
+        points = tuple(Vec2(x, y) for x, y in checks.columns("points", points, of="Chain").tolist())
         loop = checks.flag("loop", loop)
         least = 3 if loop else 2
         if len(points) < least:

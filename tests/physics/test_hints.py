@@ -91,16 +91,31 @@ PAIR = [
     (1 + 2j, "(z.real, z.imag)"),
 ]
 POSE = [(RECT, "rect.center"), (BODY, "body.position"), ("0, 0", ""), ((1, 2, 3, 4), "")]
-POINTS = [
-    (RECT, "Polygon.box(30, 40, center=(16, 22))"),
-    (SURFACE, "PixelMask.from_surface(surface)"),
-    (20, "Polygon.box(width, height)"),
-    ("0, 0", ""),
-]
-POSITIONS = [((3, 4), "[(3, 4)]"), (5, ""), ("ab", ""), (RECT, "")]
+RECT_CORNERS = "[rect.topleft, rect.topright, rect.bottomright, rect.bottomleft]"
+POINTS = {
+    "Polygon": [(20, "Polygon.box(width, height)"), (RECT, "Polygon.box(30, 40, center=(16, 22))")],
+    "Chain": [(20, "write Chain([(x, y), (x, y), …])"), (RECT, f"write Chain({RECT_CORNERS}, loop=True)")],
+    "hull": [(20, "write hull([(x, y), (x, y), …])"), (RECT, f"write hull({RECT_CORNERS})")],
+    "decompose": [(20, "write decompose([(x, y), (x, y), …])"), (RECT, f"write decompose({RECT_CORNERS})")],
+}
+for _each in POINTS.values():
+    _each += [
+        (SURFACE, "PixelMask.from_surface(surface)"),
+        (np.float32(2.5), _each[0][1]),
+        ("0, 0", "(got '0, 0')"),
+        (None, "(got None)"),
+        ((3, 4), "[(3, 4)] for one point"),
+        (BALL, "write shape.points"),
+        ({(0, 0), (4, 0), (4, 4)}, "write a list, because a set has no order"),
+        (iter(CORNERS), "write [*points], a list"),
+        (np.ones((3, 2), bool), "an array of bool"),
+        ([(0, 0), (1, "x")], "(got [(0, 0), (1, 'x')])"),
+    ]
+POSITIONS = [((3, 4), "[(3, 4)]"), (5, ""), ("ab", ""), (RECT, ""), ({(3, 4), (5, 6)}, "a set has no order")]
 MANY = [((3, 4), "write [(3, 4)] * 2"), ([(3, 4)], "2 rows")]  # of two bodies
 ANGLES = [(0.5, "write [0.5] * 2"), ([0.5], "2 rows")]
-PLACES = [((3, 4), "write [(3, 4)] for one point"), (5, "")]
+SETS = [({(3, 4), (5, 6)}, "a set has no order"), ({3, 4}, "a set has no order")]
+PLACES = [((3, 4), "write [(3, 4)] for one point"), (5, "write [(x, y)]"), *SETS]
 MATERIAL = [
     (0.5, "Material(friction=0.5)"),
     ({"friction": 0.5, "density": 2}, "Material(friction=0.5, density=2)"),
@@ -134,6 +149,10 @@ SOLID = [
     (["#..", "###"], '[[each == "#" for each in row] for row in rows]'),
     ([["#", "."]], '[[each == "#" for each in row] for row in rows]'),
     (np.zeros((2, 3, 4), np.uint8), "(2, 3, 4)"),
+    ("ship.png", "PixelMask.from_surface(pygame.image.load('ship.png'))"),
+    ((3, 4), "np.ones((4, 3), bool)"),
+    (RECT, "np.ones((40, 30), bool)"),
+    (5, "(got 5)"),
 ]
 SURFACES = [
     ("ship.png", "pygame.image.load('ship.png')"),
@@ -199,6 +218,10 @@ def world_setter(name):
     return lambda w, v: setattr(w, name, v)
 
 
+def grid():
+    return World().add_body(TileGrid(np.zeros((3, 3), bool), 8), kind="static")
+
+
 CALLS = [
     ("radius", RADIUS, lambda w, v: Circle(v)),
     ("center", PAIR, lambda w, v: Circle(1, v)),
@@ -206,10 +229,10 @@ CALLS = [
     ("b", PAIR, lambda w, v: Capsule((1, 1), v, 2)),
     ("radius", NUMBER, lambda w, v: Capsule((1, 1), (2, 2), v)),
     ("a", PAIR, lambda w, v: Segment(v, (1, 1))),
-    ("points", POINTS, lambda w, v: Polygon(v)),
-    ("points", POINTS, lambda w, v: Chain(v)),
-    ("points", POINTS, lambda w, v: hull(v)),
-    ("points", POINTS, lambda w, v: decompose(v)),
+    ("points", POINTS["Polygon"], lambda w, v: Polygon(v)),
+    ("points", POINTS["Chain"], lambda w, v: Chain(v)),
+    ("points", POINTS["hull"], lambda w, v: hull(v)),
+    ("points", POINTS["decompose"], lambda w, v: decompose(v)),
     ("width", BOX_SIDES, lambda w, v: Polygon.box(v, 1)),
     ("center", PAIR, lambda w, v: Polygon.box(2, 3, v)),
     ("shape", [each for each in SHAPE if each[0] is not None], lambda w, v: Bounds(v)),
@@ -263,6 +286,11 @@ CALLS = [
     ("filter", FILTER, lambda w, v: w.add_bodies(BALL, [(0, 0)], filter=v)),
     ("body", IDS, lambda w, v: w.remove_body(v)),
     ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.remove_bodies(v)),
+    ("ids", [({0, 3}, "a list, because a set has no order")], lambda w, v: w.move(v, [(0, 0), (9, 9)])),
+    ("ids", [(frozenset([0]), "in the order of positions")], lambda w, v: w.move(v, [(0, 0)])),
+    ("bodies_a", [({0, 3}, "in the order of bodies_b")], lambda w, v: w.add_joints(Angle, v, [2, 1])),
+    ("bodies_b", [({0, 3}, "in the order of bodies_a")], lambda w, v: w.add_joints(Angle, [2, 1], v)),
+    ("cells", [({(0, 0), (1, 1)}, "a set has no order")], lambda w, v: grid().set_cells(v, [True, False])),
     ("positions", POSITIONS, lambda w, v: w.move([0], v)),
     ("velocities", MANY, lambda w, v: w.move([0, 3], [(0, 0), (9, 9)], velocities=v)),
     ("angles", ANGLES, lambda w, v: w.move([0, 3], [(0, 0), (9, 9)], v)),
@@ -351,6 +379,39 @@ def test_a_typical_wrong_argument_gets_the_right_name_and_changes_nothing(name, 
         assert hint in text, f"{text!r} does not say {hint}"
         assert len(text) < 600 and "\n" not in text, text
     assert state(world) == before
+
+
+MISSING = [
+    (Circle, (), "Circle() needs radius (got no radius): write Circle(radius)"),
+    (Capsule, (5,), "needs a, b, radius (got no b, no radius): write Capsule((x, y), (x, y), radius)"),
+    (Capsule, ((0, 0), (1, 1)), "(got no radius): write Capsule((x, y), (x, y), radius)"),
+    (Segment, (5,), "Segment() needs a, b (got no b): write Segment((x, y), (x, y))"),
+    (Polygon, (), "write Polygon([(x, y), (x, y), (x, y)])"),
+    (Polygon.box, (5,), "Polygon.box() needs width, height (got no height): write Polygon.box(width, height)"),
+    (Chain, (), "write Chain([(x, y), (x, y)])"),
+    (TileGrid, ([[True]],), "TileGrid() needs solid, tile_size (got no tile_size): write TileGrid(solid, tile_size)"),
+    (PixelMask, (), "write PixelMask.from_surface(surface)"),
+    (PixelMask.from_mask, (), "PixelMask.from_mask() needs mask (got no mask)"),
+    (OTHER.ray_cast, ((0, 0),), "needs origin, translation (got no translation)"),
+    (Polygon, (CORNERS[:2],), "(got 2): write Segment(a, b), or Capsule(a, b, radius)"),
+]
+
+
+@pytest.mark.parametrize(("called", "given", "words"), MISSING)
+def test_a_missing_argument_gets_a_call_that_has_all(called, given, words):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        called(*given)
+    assert words in str(caught.value) and caught.value.__context__ is None, str(caught.value)
+
+
+def test_a_missing_argument_by_keyword_is_named():
+    with pytest.raises(TypeError, match=r"Capsule\(\) needs a, b, radius \(got no a\)"):
+        Capsule(radius=3, b=(0, 0))
+
+
+def test_an_error_within_a_call_is_not_taken_for_a_missing_argument():
+    with pytest.raises(TypeError, match="radius must be a number"):
+        Circle("5")
 
 
 # ---- keywords --------------------------------------------------------------------------------------------------------
