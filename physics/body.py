@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import body_values, carving, checks, edit, step, teleport
+from physics import body_values, carving, checks, edit, hints, step, teleport
 from physics.annotations import ContinuousName, KindName, Pair, Pose, TierName
 from physics.carving import Carved
 from physics.collision.areas import with_areas
@@ -28,7 +28,7 @@ from physics.world_state import Handle
 
 
 @checks.setting_by(checks.set_known)
-class Body(Handle):
+class Body(Handle, metaclass=hints.WithForeignNames):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
     World.add_body returns it.

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from physics import hints
 from physics.broadphase.proxies import cover_final_poses
 from physics.collision.manifold import by_parent, is_before, is_of, measure_approach
 from physics.collision.narrow_phase import SENSORS
@@ -392,7 +393,7 @@ def sense(state: StepState) -> None:
 # ---- events ----------------------------------------------------------------------------------------------------------
 
 
-class Events:
+class Events(metaclass=hints.WithForeignNames):
     """The events of the last step, one structured array for each kind. They are valid until the next step.
 
     begin: EVENT rows of the pairs of shapes that began to touch; end: EVENT rows of the pairs that stopped touching.

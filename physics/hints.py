@@ -6,11 +6,12 @@ functions run only after an argument was rejected, so valid arguments take no ex
 
 import difflib
 import numbers
+from abc import ABCMeta
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import FrozenInstanceError
 from functools import wraps
-from inspect import Parameter, signature
-from typing import Any, TypeVar
+from inspect import Parameter, getattr_static, signature
+from typing import Any, Never, TypeVar
 
 import numpy as np
 
@@ -162,6 +163,126 @@ ASSIGNED |= {
     },
     "TileGrid": {**_OWN_VALUES, "solid": "body.set_cells(cells, solid)"},
     "Shape": _OWN_VALUES,
+}
+
+
+# Attributes of other engines that are read, and columns: {class: {attribute: expression}}.
+READ: dict[str, dict[str, str]] = {
+    "Body": {
+        **{name: f"body.material.{name}" for name in MATERIALS},
+        **dict.fromkeys(("bounce", "bounciness", "elasticity"), "body.material.restitution"),
+        **dict.fromkeys(("type", "body_type", "is_static", "is_dynamic", "is_kinematic"), "body.kind"),
+        **dict.fromkeys(("shape", "mask", "fixtures"), "body.shapes[0]"),
+        **dict.fromkeys(("filter_mask", "mask_bits"), "body.filter.mask"),
+        **dict.fromkeys(("layer", "category", "categories", "group", "membership"), "body.filter.membership"),
+        **dict.fromkeys(("pos", "location", "xy"), "body.position"),
+        **{name: f"body.position.{name}" for name in ("x", "y")},
+        **dict.fromkeys(("centre", "world_center", "worldCenter", "center_of_gravity"), "body.center"),
+        **dict.fromkeys(("rect", "bb", "aabb", "width", "height", "size"), "body.bounds, (min_x, min_y, max_x, max_y)"),
+        **dict.fromkeys(("rotation", "orientation"), "body.angle, in radians"),
+        "rotation_vector": "Vec2(1, 0).rotated(body.angle)",
+        **dict.fromkeys(("vel", "linear_velocity", "linearVelocity"), "body.velocity"),
+        **dict.fromkeys(("speed",), "body.velocity.length"),
+        **{f"v{name}": f"body.velocity.{name}" for name in ("x", "y")},
+        **dict.fromkeys(("omega", "spin", "angularVelocity"), "body.angular_velocity"),
+        **dict.fromkeys(("force", "torque"), 'world.bodies["force_x"][world.rows(body)], likewise force_y and torque'),
+        "moment": "body.inertia",
+        **dict.fromkeys(("user_data", "userData", "data", "tag", "name", "image", "sprite"), "body.user"),
+        "collision_type": "body.user",
+        "space": "body.world",
+        **dict.fromkeys(("constraints", "joint"), "body.joints"),
+        **dict.fromkeys(("is_sleeping", "sleeping"), "not body.awake"),
+        **dict.fromkeys(("kill", "destroy"), "body.remove()"),
+        **dict.fromkeys(("activate", "sleep"), "body.wake(); bodies fall asleep by themselves"),
+        **dict.fromkeys(
+            ("apply_force_at_world_point", "apply_force_at_local_point", "ApplyForce"),
+            "body.apply_force(force, point), with a point in the world",
+        ),
+        **dict.fromkeys(
+            ("apply_impulse_at_world_point", "apply_impulse_at_local_point", "ApplyLinearImpulse"),
+            "body.apply_impulse(impulse, point), with a point in the world",
+        ),
+        "local_to_world": "body.to_world(point)",
+        "world_to_local": "body.to_local(point)",
+        "velocity_at_world_point": "body.velocity_at(point)",
+        "each_arbiter": "body.contacts",
+    },
+    "Joint": {
+        **dict.fromkeys(("stiffness", "frequency", "hertz"), "joint.spring.hertz"),
+        "damping": "joint.spring.damping",
+        **dict.fromkeys(("rate", "motor_speed"), "joint.motor.speed"),
+        **dict.fromkeys(("max_torque", "max_motor_torque"), "joint.motor.max"),
+        **dict.fromkeys(("lower", "min"), "joint.limits[0]"),
+        **dict.fromkeys(("upper", "max"), "joint.limits[1]"),
+        **dict.fromkeys(("max_force", "break_force"), "joint.breaks[0]"),
+        **dict.fromkeys(("collide_bodies", "collide_connected"), "joint.contacts"),
+        **dict.fromkeys(("a", "bodyA"), "joint.body_a"),
+        **dict.fromkeys(("b", "bodyB"), "joint.body_b"),
+        **dict.fromkeys(("at", "anchor"), "joint.anchor_a"),
+        "target": "joint.point, of a Target",
+        "impulse": "joint.force",
+    },
+    "World": {
+        "fps": "1 / world.dt",
+        **dict.fromkeys(("iterations", "velocity_iterations"), "world.substeps"),
+        "damping": "world.drag",
+        **dict.fromkeys(
+            ("space", "add", "create_body", "CreateBody", "CreateStaticBody", "CreateDynamicBody"),
+            "world.add_body(*shapes, position=…)",
+        ),
+        "static_body": 'world.add_body(*shapes, kind="static"); a joint with None holds to the world',
+        **dict.fromkeys(("remove", "DestroyBody"), "world.remove_body(body)"),
+        **dict.fromkeys(
+            ("on_collision", "add_collision_handler", "collisions", "contact_listener", "contactListener"),
+            "world.events.begin, after the step",
+        ),
+        **dict.fromkeys(("hits", "begin", "end"), "world.events.hits, world.events.begin or world.events.end"),
+        "constraints": "world.joints",
+        **dict.fromkeys(
+            ("raycast", "ray", "segment_query", "segment_query_first", "RayCast"), "world.ray_cast(origin, translation)"
+        ),
+        "point_query": "world.query_point(point)",
+        "point_query_nearest": "world.closest(point)",
+        **dict.fromkeys(("bb_query", "QueryAABB"), "world.query_aabb(lower, upper)"),
+        "shape_query": "world.overlap(shape, pose)",
+        **dict.fromkeys(("update", "tick", "Step", "simulate"), "world.step()"),
+        "collision_slop": "world.tolerances.slop",
+        "debug_draw": "debug.outlines(world), after from physics import debug",
+        "copy": "copy.deepcopy(world), or world.snapshot()",
+    },
+    "Events": {
+        **dict.fromkeys(
+            ("collisions", "contacts", "pairs", "collision", "started", "enter", "begins", "on_begin"),
+            "events.begin; world.contacts has the contact points of all touching pairs",
+        ),
+        **dict.fromkeys(("stay", "touching"), "events.persist, or world.touching()"),
+        **dict.fromkeys(("exit", "ended", "separate", "ends", "stopped"), "events.end"),
+        **dict.fromkeys(("hit", "impacts", "post_solve"), "events.hits"),
+        **dict.fromkeys(("sensors", "sensor", "triggers", "overlaps"), "events.sensor_begin and events.sensor_end"),
+    },
+    "Character": {
+        **{name: f"character.position[{k}]" for k, name in enumerate("xy")},
+        **dict.fromkeys(
+            ("grounded", "on_ground", "on_floor", "is_on_floor", "wall", "riding", "squeezed", "slope"),
+            "moved = character.move(dx, dy), and moved.grounded, .wall, .slope, .riding or .squeezed",
+        ),
+        **dict.fromkeys(
+            ("velocity", "move_and_slide", "move_and_collide"), "character.move(dx, dy), in pixels of this step"
+        ),
+        "world_position": "character.position",
+        **{name: f"character.body.{name}" for name in ("user", "bounds", "filter", "shapes", "id", "contacts")},
+        "rect": "character.body.bounds, (min_x, min_y, max_x, max_y)",
+    },
+    "Record": {
+        "position": 'row["point_x"], row["point_y"]',
+        **{name: f'row["{name}_x"], row["{name}_y"]' for name in ("point", "normal")},
+        **dict.fromkeys(("impulse", "total_impulse"), 'row["normal_impulse"]'),
+        **dict.fromkeys(("depth", "penetration", "distance"), 'row["separation"], negative where shapes overlap'),
+        **dict.fromkeys(("a", "bodyA"), 'world.body(row["body_a"])'),
+        **dict.fromkeys(("b", "bodyB"), 'world.body(row["body_b"])'),
+        "bodies": 'row["body_a"], row["body_b"]',
+        "shapes": 'row["shape_a"], row["shape_b"]',
+    },
 }
 
 
@@ -542,6 +663,58 @@ def unchangeable(expression: str, reason: str = "") -> Callable[[Made], Made]:
         return made
 
     return decorate
+
+
+class ForeignName:
+    """A class attribute for a name of another engine. Reading it raises AttributeError with the expression to write.
+
+    It is no data descriptor, so that subclasses and instances can have an attribute of this name.
+    """
+
+    __slots__ = ("message",)
+
+    def __init__(self, message: str) -> None:
+        self.message = message
+
+    def __get__(self, thing: Any, kind: Any = None) -> Never:
+        raise AttributeError(self.message)
+
+
+def _without_foreign_names(kind: type, names: Iterable[str]) -> list[str]:
+    """Return the names of attributes of a class, or of its instance, that are not ForeignNames of the class."""
+    return [each for each in names if not isinstance(getattr_static(kind, each, None), ForeignName)]
+
+
+class WithForeignNames(ABCMeta):
+    """Metaclass that adds a ForeignName for each entry of READ to the class of this name; dir() and help() omit them.
+
+    A `__getattr__` in these classes would make all reading slower, by 30 % for body.position: CPython specializes the
+    bytecode LOAD_ATTR only for classes without it. The base is ABCMeta, so that a subclass of World can also have ABC
+    as a base.
+    """
+
+    def __init__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any]) -> None:
+        super().__init__(name, bases, namespace)
+        if name in READ:
+            type.__setattr__(cls, "__dir__", visible_names)
+        for word, expression in READ.get(name, {}).items():
+            if not hasattr(cls, word):
+                setattr(cls, word, ForeignName(f"{name} has no attribute {word}: write {expression}"))
+
+    def __dir__(cls) -> list[str]:
+        return _without_foreign_names(cls, super().__dir__())
+
+
+def visible_names(thing: Any) -> list[str]:
+    """Return the names of the attributes of an object for dir(), without ForeignNames of its class."""
+    own = getattr(thing, "__dict__", {})
+    return [*own, *_without_foreign_names(type(thing), {*object.__dir__(thing)} - {*own})]
+
+
+def in_place_of_column(row: Any, name: str) -> str:
+    """Return the hint for reading an attribute `name` of a row of a structured array; "" if there is no hint."""
+    expression = f'row["{name}"]' if name in (row.dtype.names or ()) else READ["Record"].get(name, "")
+    return f": write {expression}" if expression else ""
 
 
 def in_place_of_word(name: str, value: Any, allowed: Sequence[str]) -> str:

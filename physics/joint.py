@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 import numpy as np
 
-from physics import checks
+from physics import checks, hints
 from physics.annotations import JointSolverName, Pair, Range
 from physics.gear import sum_with, with_gears
 from physics.islands import sleep
@@ -172,7 +172,7 @@ def _identity(world, value):
 
 
 @checks.setting_by(checks.set_known)
-class Joint:
+class Joint(metaclass=hints.WithForeignNames):
     """A handle on one joint of a world.
 
     world: the World of the joint; identity: the id of the joint, a whole number.

@@ -58,7 +58,7 @@ from physics.tables.contact import CONTACT
 from physics.tables.joint import JOINT
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
-from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
+from physics.world_state import Handle, Profile, WorldState, checked_accuracy, checked_substeps
 
 PLAIN = Material()  # the default material of bodies
 
@@ -78,7 +78,7 @@ def _set_known(world: Any, name: str, value: Any) -> None:
 
 
 @checks.setting_by(_set_known)
-class World(WorldState):
+class World(WorldState, metaclass=hints.WithForeignNames):
     """A simulation: bodies, joints, the declared effects, and the stages of a step that these effects need.
 
     Add bodies with add_body, call step repeatedly with equal lengths, and read positions, contacts and events.
@@ -649,13 +649,11 @@ class World(WorldState):
 
     def __contains__(self, body: object) -> bool:
         """Return whether a Body, a Joint or the id of a body is in this world."""
-        if isinstance(body, Joint):
-            return body.world is self and bool((self.joints["id"] == body.id).any())
-        if isinstance(body, Body):
+        if isinstance(body, Handle):
             return body.world is self and body.id in self
-        if isinstance(body, bool) or not isinstance(body, (int, np.integer)):
-            return False
-        return int(body) in self._shapes_of
+        if isinstance(body, (int, np.integer)) and not isinstance(body, bool):
+            return int(body) in self._shapes_of
+        return isinstance(body, Joint) and body.world is self and bool((self.joints["id"] == body.id).any())
 
     @hints.explained
     def ray_cast(

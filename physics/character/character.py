@@ -52,7 +52,7 @@ class Moved(NamedTuple):
     squeezed: bool
 
 
-class Character:
+class Character(metaclass=hints.WithForeignNames):
     """A convex shape that the game moves in whole pixels, and that stops before it overlaps a solid.
 
     world: the World, which must have the effect `response`.

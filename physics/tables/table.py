@@ -2,11 +2,12 @@
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Never
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
+from physics import hints
 from physics.jit import generic, subkernel
 
 # ---- lines -----------------------------------------------------------------------------------------------------------
@@ -138,6 +139,9 @@ class Record(np.void):
     """
 
     __slots__ = ()
+
+    def __getattr__(self, name: str) -> Never:
+        raise AttributeError(f"{type(self).__name__} has no attribute {name}{hints.in_place_of_column(self, name)}")
 
     def __repr__(self):
         values = ((name, self[name].item()) for name in self.dtype.names or ())
