@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import fields
 from typing import Any
 
@@ -231,7 +230,7 @@ def _default_point(world, kind, name, body):
     if "at" not in type(kind).__dataclass_fields__ or type(kind).__dataclass_fields__["at"].default is not None:
         return None
     row = world._body_row(body)
-    return (0.0, 0.0) if kind.local else (row["center_x"].item(), row["center_y"].item())
+    return (0.0, 0.0) if checks.flag("local", kind.local) else (row["center_x"].item(), row["center_y"].item())
 
 
 def _body_ids(world, name, values) -> np.ndarray:
@@ -260,10 +259,11 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     if wrong := {name: settings[name] for name in settings.keys() - known}:
         raise hints.unexpected(f"World.add_joints({kind.__name__})", sorted(known), wrong)
     for name, each in (("bodies_a", bodies_a), ("bodies_b", bodies_b)):
-        if each is not None and not isinstance(each, Iterable):
-            raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
         checks.in_order(name, each, "bodies_b" if name == "bodies_a" else "bodies_a")
-    first, second = (None if each is None else [*each] for each in (bodies_a, bodies_b))
+    first, second = (None if each is None else checks.listed(each) for each in (bodies_a, bodies_b))
+    for name, each, found in (("bodies_a", bodies_a, first), ("bodies_b", bodies_b, second)):
+        if each is not None and found is None:
+            raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
     n = len(first or second or ())
     users = checks.users(settings.pop("user", None), n)
     if kind.COUPLES:
@@ -320,6 +320,10 @@ def _column(kind, name, settings, n) -> np.ndarray:
     if name not in settings and name != "axis":
         raise TypeError(f"add_joints() needs {name}, an array (n, 2) of points, for {kind.__name__}")
     given = settings.get(name, kind.axis if name == "axis" else None)
-    if np.ndim(given) == 1 and len(given) == 2:
+    try:
+        single = np.ndim(given) == 1 and len(given) == 2
+    except ValueError:  # rows of different lengths, of which checks.columns makes an error
+        single = False
+    if single:
         return np.repeat([checks.vector(name, given)], n, axis=0)
     return checks.columns(name, given, n, like="bodies_a")

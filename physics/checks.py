@@ -154,6 +154,24 @@ def vector(name: str, value: Any) -> Vec2:
     return Vec2(number(f"{name}[0]", x), number(f"{name}[1]", y))
 
 
+def two(value: Any) -> tuple[Any, Any] | None:
+    """Return the two entries of a pair of any values; None for a set, a text, and anything else that is not a pair."""
+    if isinstance(value, NO_PAIRS):
+        return None
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        return None
+    return first, second
+
+
+def listed(value: Any) -> list[Any] | None:
+    """Return the entries of an iterable as a list; None for a text, an array of no dimension, or another value."""
+    if isinstance(value, (str, bytes, bytearray)) or not isinstance(value, Iterable):
+        return None
+    return None if isinstance(value, np.ndarray) and value.ndim == 0 else [*value]
+
+
 def position(name: str, value: Any) -> Vec2:
     """Convert a pair of coordinates [px] to a Vec2, and return it. Both must be below POSITION_LIMIT in magnitude.
 
@@ -340,7 +358,8 @@ def pose(name: str, value: Any) -> tuple[float, float, float]:
     POSITION_LIMIT. name: name of the argument, for messages.
     """
     try:
-        x, y, angle = value if len(value) == 3 else (*value, 0.0)
+        given: Any = () if isinstance(value, NO_PAIRS) else value
+        x, y, angle = given if len(given) == 3 else (*given, 0.0)
     except (TypeError, ValueError):
         hint = hints.in_place_of_vector(name, value)
         raise TypeError(f"{name} must be (x, y) or (x, y, angle) (got {shown(value)}){hint}") from None

@@ -264,8 +264,11 @@ def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.n
             f"cells[{bad[0]}] must be (column, row) within 0..{columns - 1} and 0..{rows - 1} "
             f"(got {tuple(found[bad[0]].tolist())})"
         )
-    flags = np.asarray(solid)
-    if flags.dtype != np.bool_:
+    try:
+        flags = np.asarray(solid)
+    except ValueError:  # rows of different lengths
+        flags = None
+    if flags is None or flags.dtype != np.bool_:
         raise TypeError(f"solid must be a bool, or one for each of cells (got {checks.shown(solid)})")
     if flags.shape not in ((), (len(found),)):
         raise ValueError(f"solid must be a bool or have shape ({len(found)},), as cells has (got {flags.shape})")

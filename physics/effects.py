@@ -113,7 +113,10 @@ class Effects:
         """
         if isinstance(names, str):
             raise TypeError(f"names must be a list of names (got {names!r}): write [{names!r}]")
-        return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
+        wanted = checks.listed(names)
+        if wanted is None or not all(isinstance(each, str) for each in wanted):
+            raise TypeError(f"names must be a list of names of effects (got {checks.shown(names)})")
+        return cls(narrowphase=False).with_(**dict.fromkeys(wanted, True))
 
     def with_(self, **changes: bool) -> "Effects":
         """Return a copy with some effects changed, for example with_(gravity=True).
@@ -138,13 +141,17 @@ class Effects:
 
         Raises TypeError for an unknown effect.
         """
+        _check_name(name)
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
         """Return a copy in which all effects needed by the effect `name` are on. The effect itself is unchanged.
 
         name: name of the effect. For an unknown name, the copy equals the original.
+
+        Raises TypeError for a value that is not a string.
         """
+        _check_name(name)
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:
@@ -160,6 +167,11 @@ def declaring(effects: Effects, name: str) -> str:
     if effects == Effects.rigid_bodies():
         return f"Effects.rigid_bodies().with_({name}=True)"
     return repr(effects.and_needed(name).with_(**{name: True}))
+
+
+def _check_name(name):
+    if not isinstance(name, str):
+        raise TypeError(f"name must be the name of an effect, a string (got {checks.shown(name)})")
 
 
 def _check_no_effects(preset, given):

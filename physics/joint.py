@@ -141,9 +141,10 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
     """
     if isinstance(ids, (Joint, int, np.integer)):
         ids = [ids]
-    if not isinstance(ids, Iterable):
+    each_id = checks.listed(ids)
+    if each_id is None:
         raise TypeError(f"ids must be Joints or ids (got {checks.shown(ids)})")
-    numbers = checks.ids("ids", [_identity(world, each) for each in ids], repeats=True)
+    numbers = checks.ids("ids", [_identity(world, each) for each in each_id], repeats=True)
     rows = rows_in(world._joints, np.unique(numbers))
     if (rows < 0).any():
         raise checks.NoSuchId(f"no joint {np.unique(numbers)[rows < 0][0]} in this world")
@@ -165,6 +166,8 @@ def _identity(world, value):
         return value.id
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise TypeError(f"joint must be a Joint or an id (got {checks.shown(value)})")
+    if not 0 <= value < 2**62:
+        raise checks.NoSuchId(f"no joint {checks.shown(int(value))} in this world")
     return int(value)
 
 

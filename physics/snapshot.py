@@ -238,12 +238,15 @@ class Snapshot:
 def _checked_path(path: Any) -> str:
     """Return a path as a str. Raises TypeError for anything but a str, bytes or path object.
 
-    An int, which open() would use as a file descriptor, raises TypeError too.
+    Raises ValueError for an empty str. An int, which open() would use as a file descriptor, raises TypeError too.
     """
     try:
-        return os.fsdecode(path)
+        found = os.fsdecode(path)
     except TypeError:
         raise TypeError(f"path must be a str or a pathlib.Path (got {checks.shown(path)})") from None
+    if not found:
+        raise ValueError("path must name a file (got '')")
+    return found
 
 
 def _remove_abandoned(path: str) -> None:

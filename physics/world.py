@@ -548,7 +548,7 @@ class World(WorldState, metaclass=hints.WithForeignNames):
 
         Raises TypeError for anything but a bool, RuntimeError during a step.
         """
-        self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
+        self.set_effects(self._effects.with_(narrowphase=checks.flag("on", on)))
 
     @hints.explained
     def set_effects(self, effects: Effects) -> None:

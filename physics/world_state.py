@@ -1,7 +1,7 @@
 """WorldState, the tables and settings of a world, and Profile, the times and work counters of a step."""
 
 import copy
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -292,14 +292,18 @@ class WorldState:
     def rows(self, ids: Any) -> np.ndarray:
         """Return the row numbers of bodies in `world.bodies`, as an int64 array of the same shape as `ids`.
 
-        ids: Bodies or ids, one or many.
+        ids: Bodies or ids, one or many, in the order of the result; not a set.
 
         Raises KeyError for a body that is not in this world, TypeError for anything but Bodies and ids, ValueError for
         a Body of another world.
         """
+        checks.in_order("ids", ids, "the result")
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
-        ids = np.asarray(ids)
+        try:
+            ids = np.asarray(ids)
+        except ValueError:  # rows of different lengths
+            raise TypeError(f"ids must be Bodies or ids (got {checks.shown(ids)})") from None
         if ids.size and ids.dtype.kind not in "iu":
             raise TypeError(f"ids must be Bodies or ids (got {checks.shown(ids)})")
         ids = ids.astype(np.int64, copy=False)
@@ -584,9 +588,10 @@ class WorldState:
             value = [value]
         if isinstance(value, np.ndarray) and value.dtype != np.object_:
             return checks.ids(name, value, repeats)
-        if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        found = checks.listed(value)
+        if found is None:
             raise TypeError(f"{name} must be Bodies or ids (got {checks.shown(value)})")
-        value = [*value]
+        value = found
         kinds = set(map(type, value))
         if kinds == {int} and 0 <= min(value) and max(value) < 2**62:
             each = value

@@ -39,7 +39,7 @@ def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.nda
 def _corners(name, value):
     try:
         array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name} must be an (n, 2) array of numbers (got {type(value).__name__})") from None
     if array.size == 0:
         array = array.reshape(0, 2)

@@ -72,6 +72,11 @@ class Spring:
             checks.number("target", self.target)
 
 
+def is_endless(value: Any, end: float) -> bool:
+    """Return whether a value is the float `end`, which is inf or -inf and stands for no limit."""
+    return isinstance(value, float) and value == end
+
+
 def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     """Return the limits of a coordinate as (low, high), with -inf or inf for no limit.
 
@@ -81,15 +86,14 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     """
     if value is None:
         return -math.inf, math.inf
-    try:
-        lower, upper = value
-    except (TypeError, ValueError):
+    pair = checks.two(value)
+    if pair is None:
         hint = hints.in_place_of_limits(value)
-        raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)}){hint}") from None
-    lower = -math.inf if lower is None else lower
-    upper = math.inf if upper is None else upper
-    lower = lower if lower == -math.inf else checks.number("limits[0]", lower, low=low)
-    upper = upper if upper == math.inf else checks.number("limits[1]", upper, low=low)
+        raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)}){hint}")
+    lower, upper = (
+        end if each is None or is_endless(each, end) else checks.number(f"limits[{k}]", each, low)
+        for k, (each, end) in enumerate(zip(pair, (-math.inf, math.inf), strict=True))
+    )
     if lower > upper:
         raise ValueError(f"limits must be (low, high) with low <= high (got {checks.shown(value)})")
     return lower, upper
@@ -98,17 +102,18 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
 def checked_breaks(value: Any) -> tuple[float, float]:
     """Return the (force, torque) above which a joint breaks. inf: this value never breaks the joint.
 
-    value: a pair (force, torque) in which None means unbreakable, or None for an unbreakable joint. Raises TypeError if
-    value is not a pair of numbers; ValueError for a number <= 0.
+    value: a pair (force, torque) in which None or inf means unbreakable, or None for an unbreakable joint. Raises
+    TypeError if value is not a pair of numbers; ValueError for a number <= 0.
     """
     if value is None:
         return math.inf, math.inf
-    try:
-        force, torque = value
-    except (TypeError, ValueError):
-        raise TypeError(f"breaks must be a pair (force, torque) (got {checks.shown(value)})") from None
-    force = math.inf if force is None else checks.number("breaks[0]", force, above=0.0)
-    torque = math.inf if torque is None else checks.number("breaks[1]", torque, above=0.0)
+    pair = checks.two(value)
+    if pair is None:
+        raise TypeError(f"breaks must be a pair (force, torque) (got {checks.shown(value)})")
+    force, torque = (
+        math.inf if each is None or is_endless(each, math.inf) else checks.number(f"breaks[{k}]", each, above=0.0)
+        for k, each in enumerate(pair)
+    )
     return force, torque
 
 

@@ -58,7 +58,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
     names both), for zero area, and for a hole that is not inside; TypeError if points or holes are not numbers.
     """
     outer = checks.columns("points", points, of="decompose")
-    if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
+    if not isinstance(holes, (Sequence, np.ndarray)) or checks.listed(holes) is None:
         raise TypeError(f"holes must be a list of polygons (got {checks.shown(holes)})")
     inner = [checks.columns(f"holes[{k}]", hole) for k, hole in enumerate(holes)]
     tolerance = checks.number("tolerance", tolerance, low=0.0)

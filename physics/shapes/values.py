@@ -151,7 +151,10 @@ class Capsule(Convex):
     def __init__(self, a: Pair, b: Pair, radius: float) -> None:
         a, b = checks.vector("a", a), checks.vector("b", b)
         radius = checks.number("radius", radius, above=0.0)
-        if math.hypot(b[0] - a[0], b[1] - a[1]) <= SHORTEST * max(radius, *map(abs, a), *map(abs, b)):
+        length = math.hypot(b[0] - a[0], b[1] - a[1])
+        if SHORTEST * max(*map(abs, a), *map(abs, b)) < length <= SHORTEST * radius:
+            raise ValueError(f"radius must be below {1.0 / SHORTEST:g} lengths of the capsule (got {radius})")
+        if length <= SHORTEST * max(*map(abs, a), *map(abs, b)):
             raise ValueError(
                 f"a and b must be two points with a length between them (got {a} and {b}); "
                 "a capsule without length is a Circle"
@@ -233,6 +236,10 @@ class Polygon(Convex):
         """
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
+        if min(half_width, half_height) <= SHORTEST * max(half_width, half_height):
+            raise ValueError(
+                f"width and height must differ by a factor below {1.0 / SHORTEST:g} (got {width} and {height})"
+            )
         x, y = checks.vector("center", center)
         angle = checks.number("angle", angle)
         cosine, sine = math.cos(angle), math.sin(angle)
@@ -299,7 +306,7 @@ class TileGrid(EqualByArrays):
         one_way = bools("one_way", one_way if one_way is not None else np.zeros_like(solid))
         try:
             slopes = np.zeros(solid.shape + (2,)) if slopes is None else np.array(slopes, dtype=np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise TypeError(f"slopes must be an array [row, col, 2] of numbers (got {type(slopes).__name__})") from None
         if one_way.shape != solid.shape:
             raise ValueError(f"one_way must have the shape of solid, {solid.shape} (got {one_way.shape})")
@@ -518,13 +525,10 @@ class Chain(EqualByValue):
             raise ValueError(
                 f"ghosts must be None for a loop, whose ends are each other's neighbours (got {checks.shown(given)})"
             )
-        try:
-            before, after = given
-        except (TypeError, ValueError):
-            raise TypeError(f"ghosts must be a pair of points (before, after) (got {checks.shown(given)})") from None
-        ghosts = tuple(
-            None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate((before, after))
-        )
+        pair = checks.two(given)
+        if pair is None:
+            raise TypeError(f"ghosts must be a pair of points (before, after) (got {checks.shown(given)})")
+        ghosts = tuple(None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate(pair))
         for k, end in enumerate((self.points[0], self.points[-1])):
             if ghosts[k] is not None:
                 _check_length(f"ghosts[{k}] and the end it smooths", ghosts[k], end)

@@ -238,7 +238,7 @@ CHANGES = [
     ("wind", lambda w, v: setattr(w, "wind", v), VECTOR),
     ("solver", lambda w, v: setattr(w, "solver", v), ["soft", None, 5]),
     ("broadphase", lambda w, v: setattr(w, "broadphase", v), ["octree", None, 5, BruteForce]),
-    ("narrowphase", lambda w, v: w.set_narrowphase(v), FLAG),
+    ("on must be", lambda w, v: w.set_narrowphase(v), FLAG),
     ("effects", lambda w, v: w.set_effects(v), [None, 5, "gravity", {"gravity": True}]),
     ("velocity", lambda w, v: setattr(w.body(0), "velocity", v), VECTOR),
     ("velocity", lambda w, v: setattr(w.body(1), "velocity", v), [(1, 0)]),

@@ -90,7 +90,8 @@ PAIR = [
     ("1, 2", ""),
     (1 + 2j, "(z.real, z.imag)"),
 ]
-POSE = [(RECT, "rect.center"), (BODY, "body.position"), ("0, 0", ""), ((1, 2, 3, 4), "")]
+NO_PAIRS = [({1, 2}, "got {1, 2}"), (b"ab", "got b'ab'"), ({1: 2, 3: 4}, "got {1: 2")]
+POSE = [(RECT, "rect.center"), (BODY, "body.position"), ("0, 0", ""), ((1, 2, 3, 4), ""), *NO_PAIRS]
 RECT_CORNERS = "[rect.topleft, rect.topright, rect.bottomright, rect.bottomleft]"
 POINTS = {
     "Polygon": [(20, "Polygon.box(width, height)"), (RECT, "Polygon.box(30, 40, center=(16, 22))")],
@@ -191,8 +192,8 @@ WHOLE = [(8.0, "write 8"), (8.5, ""), ("8", "")]
 IDS = [("crate", ""), (1.5, ""), (BALL, "")]
 SPRING = [(2.0, "Spring(2.0)"), ("stiff", "")]
 DRIVE = [(2.0, "Drive(2.0, max=…)"), ("fast", "")]
-RANGE = [(3.0, ""), ("ab", "")]
-LIMITS = [(3.0, "write (None, 3.0)"), ("ab", "")]
+RANGE = [(3.0, ""), ("ab", ""), *NO_PAIRS]
+LIMITS = [(3.0, "write (None, 3.0)"), ("ab", ""), *NO_PAIRS, (np.zeros((2, 3)), "limits[0] must be a number")]
 SUBSTEPS = [("many", 'a whole number from 1 to 1000, or "auto"'), ("Auto", '"auto"'), *WHOLE[:2]]
 PATH = [(5, "a str or a pathlib.Path"), (None, "a str or a pathlib.Path"), (BALL, "a str or a pathlib.Path")]
 
@@ -218,6 +219,10 @@ def world_setter(name):
     return lambda w, v: setattr(w, name, v)
 
 
+def motor(local):
+    return Motor(0, 3, max_force=1.0, max_torque=1.0, local=local)
+
+
 def grid():
     return World().add_body(TileGrid(np.zeros((3, 3), bool), 8), kind="static")
 
@@ -234,6 +239,16 @@ CALLS = [
     ("points", POINTS["hull"], lambda w, v: hull(v)),
     ("points", POINTS["decompose"], lambda w, v: decompose(v)),
     ("width", BOX_SIDES, lambda w, v: Polygon.box(v, 1)),
+    ("width", [(1e300, "by a factor below 1e+09"), (1e-12, "")], lambda w, v: Polygon.box(v, 1)),
+    ("radius", [(1e300, "below 1e+09 lengths")], lambda w, v: Capsule((0, 0), (1, 0), v)),
+    ("ghosts", [({(0, 0), (9, 9)}, "(before, after)"), (5, "")], lambda w, v: Chain(CORNERS, ghosts=v)),
+    ("slopes", [(10**400, "got int"), ("ab", "got str")], lambda w, v: TileGrid([[False]], 8, slopes=v)),
+    ("holes", [(np.array(3.0), "a list of polygons"), (5, ""), ("ab", "")], lambda w, v: decompose(CORNERS, v)),
+    ("lower", [(10**400, ""), ("ab", ""), ([(1, 2), (3,)], "")], lambda w, v: physics.DynamicTree().find_pairs(v, v)),
+    ("names", [(5, ""), (None, ""), ([1, 2], "a list of names"), (np.array(3), "")], lambda w, v: Effects.named(v)),
+    ("name", [([], ""), (5, "a string"), (None, "")], lambda w, v: Effects.rigid_bodies().without(v)),
+    ("name", [([], ""), (5, "a string"), (None, "")], lambda w, v: Effects.rigid_bodies().and_needed(v)),
+    ("on", FLAG, lambda w, v: w.set_narrowphase(v)),
     ("center", PAIR, lambda w, v: Polygon.box(2, 3, v)),
     ("shape", [each for each in SHAPE if each[0] is not None], lambda w, v: Bounds(v)),
     ("solid", SOLID, lambda w, v: PixelMask(v)),
@@ -286,6 +301,14 @@ CALLS = [
     ("filter", FILTER, lambda w, v: w.add_bodies(BALL, [(0, 0)], filter=v)),
     ("body", IDS, lambda w, v: w.remove_body(v)),
     ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.remove_bodies(v)),
+    ("ids", [({0, 3}, "in the order of the result"), ([[0], [1, 2]], ""), ("ab", "")], lambda w, v: w.rows(v)),
+    ("ids", [("", ""), (b"a", ""), (np.array(0.0), ""), (5.0, "")], lambda w, v: w.remove_joints(v)),
+    ("joint", [(True, "got True"), ("ab", "")], lambda w, v: w.joint(v)),
+    ("bodies_a", [(np.array(3.0), ""), (b"ab", ""), (5, "")], lambda w, v: w.add_joints(Angle, v, [1])),
+    ("at", [([(1, 2), (3,)], "rows of different lengths")], lambda w, v: w.add_joints(Revolute, [0, 0], [3, 3], at=v)),
+    ("solid", [([[True], [True, False]], "a bool"), (1, "a bool")], lambda w, v: grid().set_cells([(0, 0)], v)),
+    ("local", [(np.zeros(2), "True or False"), (1, "write True")], lambda w, v: w.add_joint(motor(v))),
+    ("path", [("", "must name a file (got '')")], lambda w, v: w.snapshot().save(v)),
     ("ids", [({0, 3}, "a list, because a set has no order")], lambda w, v: w.move(v, [(0, 0), (9, 9)])),
     ("ids", [(frozenset([0]), "in the order of positions")], lambda w, v: w.move(v, [(0, 0)])),
     ("bodies_a", [({0, 3}, "in the order of bodies_b")], lambda w, v: w.add_joints(Angle, v, [2, 1])),
