@@ -21,7 +21,7 @@ from physics.joint import Joint
 from physics.math2d import Vec2, rotate
 from physics.queries.casts import bounds_of
 from physics.shapes.shape import Filter, Material, Shape
-from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, STATIC
+from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, STATIC
 from physics.tables.columns import ContactRows
 from physics.tables.contact import CONTACT_POINT
 from physics.world_state import Handle
@@ -118,6 +118,10 @@ class Body(Handle, metaclass=hints.WithForeignNames):
             None if angle is None else checks.angle("angle", angle),
         )
 
+    def _teleport_of_character(self, position: Vec2 | tuple[float, float]) -> None:
+        """Teleport the body of a Character, which calls this method, to a position (x, y) [px]."""
+        teleport.move_to(self._world, self._id, position, None, of_character=True)
+
     def set_target(self, position: Pair, angle: float | None = None) -> None:
         """Move a kinematic body to a pose by the end of the next step.
 
@@ -156,8 +160,11 @@ class Body(Handle, metaclass=hints.WithForeignNames):
         world._unstepped()
         value = checks.vector("velocity", value)
         row, columns = world._row_at(identity), world._bodies.columns
-        if columns["kind"][row] == STATIC and value != (0.0, 0.0):
+        kind = columns["kind"][row]
+        if kind == STATIC and value != (0.0, 0.0):
             raise ValueError(f"velocity must be (0, 0) for static body {identity} (got {value})")
+        if kind == KINEMATIC:
+            teleport.check_no_character(world, identity, "velocity")
         columns["vx"][row], columns["vy"][row] = value
         world._targets.pop(identity, None)
         self._stir(row)
@@ -181,6 +188,7 @@ class Body(Handle, metaclass=hints.WithForeignNames):
             world._needs("rotation", "angular_velocity", True)
             if columns["kind"][row] == STATIC:
                 raise ValueError(f"angular_velocity must be 0 for static body {identity} (got {value})")
+            teleport.check_no_character(world, identity, "angular_velocity")
             edit.check_grid_stands(self.shapes, value)
         columns["angular_velocity"][row] = value
         world._targets.pop(identity, None)

@@ -1,13 +1,16 @@
 """Functions that return the internal state of a World as arrays in world pixels, for debug drawing.
 
-The functions do not change the simulation. Their arguments are not checked.
+The functions do not change the simulation. They raise TypeError for a `world` that is not a World. Their other
+arguments are not checked.
 """
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from physics import checks
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
@@ -37,6 +40,21 @@ ROW = np.dtype(
     ]
 )
 LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
+Called = TypeVar("Called", bound=Callable[..., Any])
+
+
+def _of_world(function: Called) -> Called:
+    """Decorate a function, so that it raises TypeError if its first argument is not a World."""
+
+    @wraps(function)
+    def checked(world: Any, *args: Any, **given: Any) -> Any:
+        if not isinstance(world, World):
+            raise TypeError(
+                f"world must be a World (got {checks.shown(world)}): write debug.{function.__name__}(world)"
+            )
+        return function(world, *args, **given)
+
+    return checked  # pyright: ignore[reportReturnType]
 
 
 class Structure(NamedTuple):
@@ -101,6 +119,7 @@ DRAWN_JOINT = np.dtype(
 )
 
 
+@_of_world
 def bounds(world: World) -> np.ndarray:
     """Return the tight AABBs (n, 4) [px] of all shapes at their present poses, in the order of shape ids.
 
@@ -112,6 +131,7 @@ def bounds(world: World) -> np.ndarray:
     return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
 
 
+@_of_world
 def shape_rows(world: World) -> np.ndarray:
     """Return a ROW for each shape, (n,) in the order of shape ids.
 
@@ -128,6 +148,7 @@ def shape_rows(world: World) -> np.ndarray:
     return rows
 
 
+@_of_world
 def motion(world: World) -> np.ndarray:
     """Return the swept AABBs (n, 4) [px] of the last step, for the shapes of bodies that are not static.
 
@@ -140,6 +161,7 @@ def motion(world: World) -> np.ndarray:
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
 
 
+@_of_world
 def structure(world: World) -> Structure:
     """Return the data structure of the world's broad phase after the last step, as a Structure.
 
@@ -170,6 +192,7 @@ def structure(world: World) -> Structure:
     return Structure(strategy.name, rects, depth, intervals)
 
 
+@_of_world
 def pairs(world: World) -> np.ndarray:
     """Return a row (x0, y0, x1, y1, hit) for each candidate pair of the last step, as an array (m, 5).
 
@@ -201,6 +224,7 @@ def _candidate_rows(world):
     return rows[(known[rows] == ids).all(axis=1)]
 
 
+@_of_world
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
     """Return a list with one tuple for each shape: the kind of its outline, and the outline in world pixels.
 
@@ -259,6 +283,7 @@ SAME_OF_JOINTS = (
 )  # fmt: skip
 
 
+@_of_world
 def joints(world: World) -> np.ndarray:
     """Return a DRAWN_JOINT row for each joint, (n,) in the order of joint ids.
 
@@ -309,6 +334,7 @@ def joints(world: World) -> np.ndarray:
     return found
 
 
+@_of_world
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
     """Return the edges of all convex polygons that form the outlines of masks, as EDGE rows.
 
@@ -356,6 +382,7 @@ class Drawn(NamedTuple):
     top: np.ndarray
 
 
+@_of_world
 def masks(world: World) -> list:
     """Return a list with (shape id, left, top, solid) of each mask, rasterised at its present pose.
 
@@ -371,6 +398,7 @@ def masks(world: World) -> list:
     ]
 
 
+@_of_world
 def drawn_masks(world: World) -> Drawn:
     """Return the pixels of all masks, rasterised at their present poses, as a Drawn.
 
@@ -400,6 +428,7 @@ def _drawn(world, rows):
     return Drawn(solids, which, shapes["left"], shapes["top"])
 
 
+@_of_world
 def mask_hits(world: World) -> list:
     """Return a list with (left, top, shared) for each candidate pair of masks that share pixels at present.
 
@@ -450,6 +479,7 @@ POINT = np.dtype(
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
+@_of_world
 def contact_points(world: World) -> np.ndarray:
     """Return the POINT rows of all contacts of the last step, including speculative and sleeping contacts.
 
@@ -496,6 +526,7 @@ def _points(world, contacts, state):
     return points
 
 
+@_of_world
 def islands(world: World) -> np.ndarray:
     """Return an int64 array (n,) with the island of each body: the lowest body id in it, or -1 for no island.
 
@@ -518,6 +549,7 @@ GHOST = np.dtype(
 )
 
 
+@_of_world
 def impact_ghosts(world: World) -> np.ndarray:
     """Return a GHOST row for each body that continuous collision stopped at an impact in the last step.
 

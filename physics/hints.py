@@ -153,6 +153,12 @@ ASSIGNED: dict[str, dict[str, str]] = {
         "damping": "world.drag = {}",
     },
 }
+ASSIGNED["Character"] = {
+    **dict.fromkeys(("position", "pos", "x", "y", "rect", "center"), "character.move_to({})"),
+    **dict.fromkeys(("velocity", "vel", "vx", "vy", "speed"), "character.move(dx, dy), in pixels of this step"),
+    **{name: f"character.body.{name} = {{}}" for name in ("user", "filter")},
+    "max_slope": "Character(…, max_slope={})",
+}
 _OWN_VALUES = {name: f"shape.with_({name}={{}})" for name in ("material", "filter", "sensor")}
 ASSIGNED |= {
     "PixelMask": {

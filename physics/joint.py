@@ -189,7 +189,9 @@ class Joint(metaclass=hints.WithForeignNames):
     __slots__ = ("_world", "_id")
 
     def __init__(self, world: WorldState, identity: int) -> None:
-        self._world, self._id = world, int(identity)
+        if not isinstance(world, WorldState):
+            raise TypeError(f"world must be a World (got {checks.shown(world)})")
+        self._world, self._id = world, _identity(world, identity)
 
     def __eq__(self, other):
         return isinstance(other, Joint) and other._world is self._world and other._id == self._id

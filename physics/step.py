@@ -43,6 +43,7 @@ from physics.tables.body import KINEMATIC
 from physics.tables.contact import CONTACT
 from physics.tables.step_state import CARVED_PIXELS, Stage, StepState, stage
 from physics.tables.table import rows_of
+from physics.teleport import check_no_character
 from physics.world_state import WorldState
 
 # ---- targets ---------------------------------------------------------------------------------------------------------
@@ -65,6 +66,7 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
     turned = float(row["angle"]) if angle is None else checks.angle("angle", angle)
     if row["kind"] != KINEMATIC:
         raise ValueError(f"set_target needs a kinematic body; body {identity} is not (got {checks.shown(position)})")
+    check_no_character(world, identity, "the target")
     turn = turned - float(row["angle"])
     check_grid_stands(world._shapes_of[identity], turn, "the turn to angle")
     world._needs("rotation", f"set_target with angle {angle}", turn != 0.0)

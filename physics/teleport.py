@@ -13,20 +13,39 @@ from physics.islands import sleep
 from physics.jit import kernel
 from physics.settings import POSITION_LIMIT
 from physics.solver.loads import blow_of, is_any_blow
-from physics.tables.body import DYNAMIC, SCATTERED, STATIC
+from physics.tables.body import DYNAMIC, KINEMATIC, SCATTERED, STATIC
 from physics.tables.table import joined, row_nearby
 from physics.world_state import WorldState
 
 NOT_SET = np.zeros((1, 2))
 
 
-def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
+def check_no_character(world: WorldState, ids: Any, name: str) -> None:
+    """Raise ValueError if a body is that of a Character, whose place is in whole pixels in another table.
+
+    ids: one or many ids of bodies; name: name of the value that is to be set.
+    """
+    own = world.characters.rows["body"]
+    if len(own) and np.isin(own, ids).any():
+        body = own[np.isin(own, ids)][0]
+        raise ValueError(
+            f"{name} of body {body} is set by its Character: write character.move_to(position) to teleport it, "
+            "character.move(dx, dy) to walk"
+        )
+
+
+def move_to(
+    world: WorldState, identity: int, position: Pair | None, angle: float | None, of_character: bool = False
+) -> None:
     """Set the position (x, y) [px] and the angle [rad] of a body (id). None leaves the value unchanged.
 
-    Raises ValueError for an angle other than 0 of a body with a TileGrid, RuntimeError during a step.
+    of_character: whether a Character moves its own body. Raises ValueError for an angle other than 0 of a body with a
+    TileGrid, and for the body of a Character; RuntimeError during a step.
     """
     world._unstepped()
     at, columns = world._row_at(identity), world._bodies.columns
+    if columns["kind"][at] == KINEMATIC and not of_character:
+        check_no_character(world, identity, "position" if angle is None else "angle")
     if angle:
         check_grid_stands(world._shapes_of[identity], angle, "angle")
     if position is not None:
@@ -147,6 +166,7 @@ def move(world: WorldState, ids: Any, positions: Points, angles: Numbers | None,
     if motions.turns and world.library.grids.count:
         for k in np.flatnonzero(motions.angles).tolist():
             check_grid_stands(world._shapes_of[int(ids[k])], motions.angles.item(k), f"angles[{k}]")
+    check_no_character(world, ids, "position")
     if n:
         _move(world, ids, rows, dynamic[:count], motions)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from physics import checks
 from physics.background import compile_ahead
 from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import REBUILD_FROM, DynamicTree
@@ -13,7 +14,7 @@ from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character
 from physics.collision.manifold import contacts_of
-from physics.effects import Effects
+from physics.effects import Effects, checked_effects
 from physics.jit import tiers
 from physics.joints.kinds import Gear, Prismatic, Pulley, Revolute, Target, Weld
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
@@ -62,6 +63,8 @@ def warmup(
     The kernels are found by running small worlds that call them. Without numba, the worlds run, but nothing is
     compiled. Raises KeyError for an unknown broad phase or piece, ValueError for an unknown solver.
     """
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function (done, total, name), or None (got {checks.shown(progress)})")
     runs = _runs(effects, broadphase, solver, pieces)
 
     def report(done, total, name):
@@ -93,7 +96,10 @@ def _runs(effects, broadphase, solver, pieces):
 
     The arguments are those of warmup(). Raises KeyError for an unknown broad phase or piece.
     """
-    effects = Effects.rigid_bodies() if effects is None else effects
+    effects = Effects.rigid_bodies() if effects is None else checked_effects(effects)
+    if not isinstance(broadphase, str) or broadphase not in (*STRATEGIES, "all"):
+        known = ", ".join((*STRATEGIES, "all"))
+        raise checks.NoSuchId(f"broadphase must be one of {known} (got {checks.shown(broadphase)})")
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
     runs: list[tuple[str, Callable[[], None]]] = [
         (
@@ -115,7 +121,10 @@ def _runs(effects, broadphase, solver, pieces):
         runs.append(("carving", lambda: _carve(effects, solver)))
     if effects.continuous:
         runs.append(("sweeps", lambda: _impacts(effects, solver)))
-    pieces = PIECES if pieces is None else tuple(pieces)
+    given = list(PIECES) if pieces is None else checks.listed(pieces)
+    if given is None:
+        raise TypeError(f"pieces must be a list of names, or None (got {checks.shown(pieces)})")
+    pieces = tuple(given)
     if "masks" in pieces or "exact masks" in pieces:
         runs.append(("outlines", _fit))
     if not effects.one_way:
@@ -144,7 +153,7 @@ def _runs(effects, broadphase, solver, pieces):
         elif piece == "characters" and effects.response:
             runs.append((piece, lambda: _character(effects, solver)))
         elif piece not in PIECES:
-            raise KeyError(f"no piece {piece!r}; there are {', '.join(PIECES)}")
+            raise checks.NoSuchId(f"pieces must be of {', '.join(PIECES)} (got {checks.shown(piece)})")
     if effects.narrowphase:
         runs.append(
             ("several pairs", lambda: _together(effects, solver, [PAIRS[each][0] for each in PAIRS if each in pieces]))

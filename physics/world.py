@@ -361,7 +361,8 @@ class World(WorldState, metaclass=hints.WithForeignNames):
         velocities: new velocities, (n, 2) [px/s]; None: unchanged.
 
         Raises KeyError for an unknown body; TypeError or ValueError for invalid arguments, a velocity other than 0 of a
-        static body, or a rotation of a TileGrid; RuntimeError during a step. No body is then moved.
+        static body, a rotation of a TileGrid, or the body of a Character; RuntimeError during a step. No body is then
+        moved.
         """
         teleport.move(self, ids, positions, angles, velocities)
 

@@ -52,6 +52,24 @@ class Moved(NamedTuple):
     squeezed: bool
 
 
+def _set_known(character: Any, name: str, value: Any) -> None:
+    """Set the attribute `name` of a character. A subclass of Character may add attributes.
+
+    Raises AttributeError for an unknown or read-only attribute.
+    """
+    own = vars(character)
+    if name in ("world", "body") and name in own:
+        raise AttributeError(f"Character.{name} cannot be set: write a new Character")
+    if "body" in own and name not in own and not hasattr(type(character), name):
+        checks.known_attribute(character, name, value, type(character) is Character)
+    try:
+        object.__setattr__(character, name, value)
+    except AttributeError:
+        checks.settable_attribute(character, name, value)
+        raise
+
+
+@checks.setting_by(_set_known)
 class Character(metaclass=hints.WithForeignNames):
     """A convex shape that the game moves in whole pixels, and that stops before it overlaps a solid.
 
@@ -70,7 +88,8 @@ class Character(metaclass=hints.WithForeignNames):
     max_slope: angle of the steepest ground on which the character can walk [rad], 0 <= max_slope < pi/2. On steeper
         ground, up to 86 degrees, it slides down.
 
-    body: the kinematic Body of the character, which takes part in contacts and sensor overlaps.
+    body: the kinematic Body of the character, which takes part in contacts and sensor overlaps. Only the character
+        moves it: setting its pose or velocity raises ValueError.
 
     With the effect `stacking`, dynamic bodies stop and carry the character, and the character pushes them. Raises
     TypeError for values of other types, ValueError for values out of range and for a world without the needed effects.
@@ -132,7 +151,7 @@ class Character(metaclass=hints.WithForeignNames):
         rows = self.world.characters.rows
         at = int(np.searchsorted(rows["body"], self.body.id))
         if at == len(rows) or rows["body"][at] != self.body.id:
-            raise KeyError(f"character {self.body.id} was removed")
+            raise checks.NoSuchId(f"character {self.body.id} was removed")
         return at
 
     @property
@@ -259,7 +278,8 @@ class Character(metaclass=hints.WithForeignNames):
             row[name] = 0.0
         row["riding"] = row["riding_shape"] = -1
         row["grounded"], row["squeezed"] = False, False
-        self.body.move_to((float(row["left"][0] + row["offset_x"][0]), float(row["top"][0] + row["offset_y"][0])))
+        place = float(row["left"][0] + row["offset_x"][0]), float(row["top"][0] + row["offset_y"][0])
+        self.body._teleport_of_character(place)
 
     def remove(self) -> None:
         """Remove the character and its body from the world."""
