@@ -253,7 +253,7 @@ READ: dict[str, dict[str, str]] = {
         "shape_query": "world.overlap(shape, pose)",
         **dict.fromkeys(("update", "tick", "Step", "simulate"), "world.step()"),
         "collision_slop": "world.tolerances.slop",
-        "debug_draw": "debug.outlines(world), after from physics import debug",
+        "debug_draw": "debug.outlines(world), of the module debug",
         "copy": "copy.deepcopy(world), or world.snapshot()",
     },
     "Events": {
