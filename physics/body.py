@@ -459,9 +459,9 @@ class Body(Handle, metaclass=hints.WithForeignNames):
         """The mode of continuous collision, which stops the body at its first impact in a step.
 
         "off": no test. "ray": test the path of the centre, the cheapest mode. "swept": test the path of the shapes
-        without rotation. "toi": test the path of the shapes with rotation (time of impact). "auto": as "toi", but only
-        in steps in which the body moves by more than half its size. Setting "ray", "swept" or "toi" raises ValueError
-        without the effect `continuous`.
+        without rotation, or with rotation in contact. "toi": test the path of the shapes with rotation (time of
+        impact). "auto": as "toi", but only in steps in which the body moves by more than half its size. Setting "ray",
+        "swept" or "toi" raises ValueError without the effect `continuous`.
         """
         return CONTINUOUS[self._value("continuous")]
 

@@ -109,7 +109,8 @@ class Step:
 
         Isolated bodies are dynamic bodies on which only gravity acted from outside in the whole step. They have no
         applied force and were not stopped within the step. No contact or joint connects them, directly or through other
-        bodies, to the world or to a static, kinematic, sleeping, stopped or forced body.
+        bodies, to the world or to a static, kinematic, sleeping, stopped or forced body. Contacts that ended in the
+        step count, because they may have acted in its first part.
         """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
@@ -120,6 +121,13 @@ class Step:
             still[self.rows_of(coupled[name][coupled[name] >= 0])] = True
         still[b[a < 0]] = True
         still[a[b < 0]] = True
+        ended = self.world.events.end
+        ended = ended[np.isin(ended["body_a"], self.now.ids) & np.isin(ended["body_b"], self.now.ids)]
+        if self.world.effects.response and len(ended):
+            one, other = self.rows_of(ended["body_a"]), self.rows_of(ended["body_b"])
+            acted = still.copy()
+            still[one] |= acted[other]
+            still[other] |= acted[one]
         if self.world.effects.response and (len(self.contacts) or len(a)):
             still = self.spread(still, np.ones(len(self.now), bool))
         return ~still

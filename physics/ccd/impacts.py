@@ -6,7 +6,7 @@ impact as (fraction, nx, ny).
 
 import math
 
-from physics.ccd.rotational import stands_deep, sweep_rotational
+from physics.ccd.rotational import is_held, stands_deep, sweep_rotational
 from physics.ccd.time_of_impact import MISS, sweep_circle_polygon, sweep_circles, sweep_polygons
 from physics.collision.hulls import ALL_EDGES, Hull, collide_polygon_circle, middle_of
 from physics.collision.manifold import open_manifold
@@ -40,12 +40,29 @@ def is_fast(bodies, paths, row, other):
 def cut_path(paths, row, start, end, cut_out):
     """Write to cut_out[row] the part of a body's path between the fractions `start` and `end` of the step.
 
-    row: row number of the body; paths, cut_out (bodies, 6): see Sweep.paths.
+    row: row number of the body; paths, cut_out: see Sweep.
     """
     for k in range(3):
         whole = paths[row, 3 + k] - paths[row, k]
         cut_out[row, k] = paths[row, k] + start * whole
         cut_out[row, 3 + k] = paths[row, 3 + k] if end == 1.0 else paths[row, k] + end * whole
+
+
+@subkernel
+def rest_where_it_is(bodies, row, paths_inout, fast_inout):
+    """Write a path without motion for a body that is not active, and clear its fast flag.
+
+    row: row number in BODY; paths_inout: see Sweep.paths; fast_inout: see Sweep.fast.
+    """
+    b = bodies[row]
+    if b.active:
+        return
+    fast_inout[row] = False
+    for k in range(0, 6, 3):
+        paths_inout[row, k] = b.center_x
+        paths_inout[row, k + 1] = b.center_y
+        paths_inout[row, k + 2] = b.angle
+    paths_inout[row, 6] = 0.0
 
 
 # ---- straight --------------------------------------------------------------------------------------------------------
@@ -148,6 +165,15 @@ def asks_sweep(body, dt, only_straight):
 
 
 @subkernel
+def is_turned(body, paths, row):
+    """Return whether a body in mode "swept" is swept with its rotation in this step, see turn_held.
+
+    body: BODY row; row: its row number; paths: see Sweep.
+    """
+    return body.continuous == SWEPT and body.kind == DYNAMIC and paths[row, 5] != paths[row, 2]
+
+
+@subkernel
 def write_impact(pair, impact, from_a, stops, found, impacts_out):
     """Append an impact to impacts_out unless the array is full. Return the new number of impacts.
 
@@ -183,7 +209,8 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
         p, q = bodies[a.body_row], bodies[b.body_row]
-        a_fast, b_fast = asks_sweep(p, dt, only_straight), asks_sweep(q, dt, only_straight)
+        a_fast = asks_sweep(p, dt, only_straight) and not is_turned(p, sweep_inout.paths, a.body_row)
+        b_fast = asks_sweep(q, dt, only_straight) and not is_turned(q, sweep_inout.paths, b.body_row)
         if not (a_fast or b_fast):
             continue
         from_a = a_fast and a.kind != TILES
@@ -275,22 +302,6 @@ def stands_still(bodies, paths, row):
 
 
 @subkernel
-def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """Write a path without motion for a body that is not active, and clear its fast flag.
-
-    row: row number in BODY; paths_inout: see Sweep.paths; fast_inout: see Sweep.fast.
-    """
-    b = bodies[row]
-    if b.active:
-        return
-    fast_inout[row] = False
-    for k in range(0, 6, 3):
-        paths_inout[row, k] = b.center_x
-        paths_inout[row, k + 1] = b.center_y
-        paths_inout[row, k + 2] = b.angle
-
-
-@subkernel
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
     """Return how far [px] two bodies would still move into each other after an impact at a fraction of the step.
 
@@ -341,6 +352,55 @@ def is_first_mover(a, b, bodies, fast):
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
 
 
+@subkernel
+def mover_of(row_a, row_b, sweep_inout):
+    """Return two SHAPE row numbers as (moving shape, obstacle) of a sweep; the first is -1 if the pair is not swept.
+
+    A shape that is not a hull cannot be the moving shape. Masks are swept by their pixels, see mask_sweep.py.
+    """
+    a, b = sweep_inout.shapes[row_a], sweep_inout.shapes[row_b]
+    is_ground = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
+    from_a = not is_ground and is_first_mover(a, b, sweep_inout.bodies, sweep_inout.fast)
+    kind = a.kind if from_a else b.kind
+    other_kind = b.kind if from_a else a.kind
+    if kind == TILES or kind == CHAIN or kind == MASK or other_kind == MASK:
+        return -1, -1
+    return (row_a, row_b) if from_a else (row_b, row_a)
+
+
+@kernel
+def turn_held(near, sweep_inout):
+    """Add to the paths of bodies in mode "swept" the rotation that was left out, if they are in contact. O(candidates).
+
+    Without its rotation, a body that turns about the point at which it touches moves into the obstacle, and would be
+    held in each step. A body is in contact if its motion without rotation has an impact after at most `near` [px].
+    sweep_inout: see Sweep.
+    """
+    shapes, candidates, paths, cuts = sweep_inout.shapes, sweep_inout.candidates, sweep_inout.paths, sweep_inout.cuts
+    motion_a, motion_b = sweep_inout.workspace.advance.motion_a, sweep_inout.workspace.advance.motion_b
+    for i in range(len(candidates)):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        if a.sensor or b.sensor or (paths[a.body_row, 6] == 0.0 and paths[b.body_row, 6] == 0.0):
+            continue
+        if not (is_swept(0, a, b, sweep_inout) or is_swept(1, a, b, sweep_inout)):
+            continue
+        mover, other = mover_of(candidates[i, 0], candidates[i, 1], sweep_inout)
+        if mover < 0:
+            continue
+        for side in range(2):
+            row = shapes[mover if side == 0 else other].body_row
+            cut_path(paths, row, 0.0, 1.0, cuts)
+            if paths[row, 6] != 0.0:
+                cuts[row, 5] = cuts[row, 2]
+        fraction, _, _, _ = sweep_rotational(mover, other, sweep_inout.slack, -1, sweep_inout)
+        if fraction > 1.0 or not is_held(motion_a, motion_b, fraction, 0.0, near):
+            continue
+        for side in range(2):
+            row = shapes[mover if side == 0 else other].body_row
+            paths[row, 5] = paths[row, 5] if paths[row, 6] == 0.0 else paths[row, 2] + paths[row, 6]
+
+
 @kernel
 def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     """Find the impacts of fast bodies along their paths, with rotation. Return their number. O(candidates).
@@ -360,15 +420,15 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         b = shapes[candidates[i, 1]]
         if not is_swept(moving, a, b, sweep_inout):
             continue
-        is_ground = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
-        from_a = not is_ground and is_first_mover(a, b, bodies, sweep_inout.fast)
-        mover = candidates[i, 0] if from_a else candidates[i, 1]
-        other = candidates[i, 1] if from_a else candidates[i, 0]
-        kind = shapes[mover].kind
-        if kind == TILES or kind == CHAIN or kind == MASK or shapes[other].kind == MASK:
+        mover, other = mover_of(candidates[i, 0], candidates[i, 1], sweep_inout)
+        if mover < 0:
             continue
-        mode = bodies[shapes[mover].body_row].continuous
+        from_a = mover == candidates[i, 0]
+        m = shapes[mover].body_row
+        o = shapes[other].body_row
+        mode = bodies[m].continuous
         straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
+        straight = straight and not is_turned(bodies[m], sweep_inout.paths, m)
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
             # The closed form leaves pairs that overlap by more than the slack to this sweep.
             if not stands_deep(mover, other, sweep_inout):
@@ -377,8 +437,6 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         fraction, nx, ny, feature = first_meeting(mover, other, slack, sweep_inout)
         if fraction > 1.0:
             continue
-        m = shapes[mover].body_row
-        o = shapes[other].body_row
         room_left = 0.25 * bodies[m].min_half_extent
         stops = stacking or goes_on(bodies, sweep_inout.paths, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
@@ -419,11 +477,13 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 
 
 @kernel
-def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
+def move_back(rows, paths, gravity_x, gravity_y, dt, slack, bodies_inout):
     """Move the stopped dynamic bodies back to the pose of their first impact. O(rows).
 
-    The rest of their motion in this step is lost. rows: row numbers in BODY; paths (bodies, 6): see Sweep; gravity_x,
-    gravity_y [px/s2] and dt [s], the length of the step: see lose_fall.
+    The rest of their motion in this step is lost. A body in mode "ray" whose centre is held at a surface, so that it
+    moves by at most `slack` [px], still rotates: only its centre is swept, and as it rotates, its contacts push it out.
+    rows: row numbers in BODY; paths: see Sweep; gravity_x, gravity_y [px/s2] and dt [s], the length of the step: see
+    lose_fall.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -436,7 +496,9 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
         lose_fall(1.0 - f, path_x, path_y, gravity_x, gravity_y, dt, b)
         b.center_x = paths[i, 0] + f * path_x
         b.center_y = paths[i, 1] + f * path_y
-        turn = f * (b.angle - b.previous_angle)
+        turn = b.angle - b.previous_angle
+        if b.continuous != RAY or f * norm(path_x, path_y) > slack:
+            turn *= f
         if turn == 0.0:
             b.x = b.previous_x + (b.center_x - paths[i, 0])
             b.y = b.previous_y + (b.center_y - paths[i, 1])
@@ -445,6 +507,40 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
             b.angle = b.previous_angle + turn
             u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x, b.y = b.center_x - u, b.center_y - v
+
+
+@kernel
+def stop_held(shapes, candidates, impacts, paths, slack, bodies_inout):
+    """Remove the approach speed of dynamic bodies that an obstacle holds where they were before the step. O(impacts).
+
+    Such a body was in contact before the step, and its contacts let it approach: its core circle, or its centre in mode
+    "ray", is at a surface. A body that arrived at its impact in this step keeps its velocity, which its contact gets in
+    the next step. impacts (n, 8): see find_impacts; candidates (n, 2): pairs of row numbers in SHAPE; paths: see Sweep;
+    slack [px]: greatest motion of a held body until the impact. Obstacles are static and kinematic bodies.
+    """
+    for i in range(len(impacts)):
+        pair = int(impacts[i, 0])
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        from_a = bodies_inout[a.body_row].kind == DYNAMIC
+        row, other = (a.body_row, b.body_row) if from_a else (b.body_row, a.body_row)
+        body, rest = bodies_inout[row], bodies_inout[other]
+        if a.sensor or b.sensor or impacts[i, 4] == 0.0 or body.kind != DYNAMIC or rest.kind == DYNAMIC:
+            continue
+        way = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
+        way += body.extent * abs(paths[row, 5] - paths[row, 2] + paths[row, 6])
+        if impacts[i, 1] > body.fraction or body.fraction * way > slack:
+            continue
+        # The normal points from A to B.
+        nx, ny = (-impacts[i, 2], -impacts[i, 3]) if from_a else (impacts[i, 2], impacts[i, 3])
+        vx, vy = body.vx, body.vy
+        if rest.kind != STATIC:
+            vx -= rest.vx - rest.angular_velocity * (body.center_y - rest.center_y)
+            vy -= rest.vy + rest.angular_velocity * (body.center_x - rest.center_x)
+        approach = -(vx * nx + vy * ny)
+        if approach > 0.0:
+            body.vx += approach * nx
+            body.vy += approach * ny
 
 
 @subkernel

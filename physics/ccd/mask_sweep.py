@@ -99,11 +99,11 @@ def write_single(geometry, bodies, shapes, row, workspace):
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
         workspace.mover[0, 1] = 0.0
-        return Mover(1, 0.0, 0.0, 0.0)
+        return Mover(1, 0.0, 0.0, 0.0, False)
     count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
     if bodies[shapes[row].body_row].continuous == RAY:
-        return Mover(shrink_to_middle(count, workspace.mover), 0.0, 0.0, 0.0)
-    return Mover(count, rounding(shapes, row), 0.0, 0.0)
+        return Mover(shrink_to_middle(count, workspace.mover), 0.0, 0.0, 0.0, False)
+    return Mover(count, rounding(shapes, row), 0.0, 0.0, False)
 
 
 @subkernel
@@ -134,8 +134,8 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     """
     r = workspace.advance
     first, pieces, are_squares = span
-    count, radius, _, _ = mover
-    n, radius_b, _, _ = hull
+    count, radius = mover.count, mover.radius
+    n, radius_b = hull.count, hull.radius
     reach = reach_of(workspace.mover, count) + radius
     turns = r.motion_b[TURN] != 0.0
     cosine, sine = math.cos(r.motion_b[ANGLE]), math.sin(r.motion_b[ANGLE])
@@ -225,15 +225,19 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
     best_out[1] = 0.0
     best_out[2] = -1.0
     first, pieces, are_squares = pieces_of(s, p, squares.spans, True)
-    mover = Mover(4, 0.0, 0.0, 0.0)
+    mover = Mover(4, 0.0, 0.0, 0.0, False)
     if not are_squares:
         mover = write_single(geometry, bodies, shapes, row, workspace)
     on_ground = o.kind == TILES or o.kind == CHAIN
     span = pieces_of(o, q, squares.spans, False)
-    hull = Mover(4, 0.0, 0.0, 0.0)
+    hull = Mover(4, 0.0, 0.0, 0.0, False)
     if not on_ground and o.kind != MASK:
         hull = Mover(
-            write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b), rounding(shapes, other), 0.0, 0.0
+            write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b),
+            rounding(shapes, other),
+            0.0,
+            0.0,
+            False,
         )
     middle = middle_of_mask(geometry, s, p, r.motion_a[ANGLE]) if are_squares else (0.0, 0.0)
     depth = 0.0

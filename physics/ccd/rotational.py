@@ -44,6 +44,10 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # is no deeper in one piece than in the whole ground. A very deep mover is swept by its core circle (Box2D v3) instead,
 # so that its centre of mass never crosses a surface. The core circle is around the centre of mass, and its radius is a
 # quarter of the smallest half extent. One-sided ground is hit only while the mover is in front of it.
+#
+# A mover that turns about the point at which it touches sinks a little on its path, because the path is not the arc of
+# this point. If it were moved back to the depth at the start, it would not move at all, and the next step would be the
+# same. So a mover that would be held at the start moves on until it is deeper by the slop (see is_held).
 
 BEFORE = 2.0**-20  # fraction of the path before an impact that counts as "just before" it
 BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are usual
@@ -65,6 +69,7 @@ class Mover(NamedTuple):
     radius: float  # [px] rounding
     half: float  # [px] smallest half extent of its body, which determines the core circle; 0: no core circle
     slack: float  # [px] depth allowed in addition to the depth at the start; 0: only rounding errors
+    sinks: bool  # whether a mover that turns, and would be held at the start, moves on to this depth
 
 
 class Sweep(NamedTuple):
@@ -77,7 +82,9 @@ class Sweep(NamedTuple):
     stacking: bool  # two dynamic bodies are left to the solver unless one is a bullet
     one_way: bool  # one-way shapes take part
     slack: float  # [px] see Mover
-    paths: np.ndarray  # (bodies, 6) centre of mass [px] and angle, at the start and at the end of the step
+    sinks: bool  # see Mover
+    paths: np.ndarray  # (bodies, 7) centre of mass [px] and angle, at the start and at the end of the step, and the
+    # rotation [rad] in the step that a sweep without rotation leaves out
     fast: np.ndarray  # (bodies,) bool: bodies to sweep
     cuts: np.ndarray  # (bodies, 6) the parts of two paths that are swept next
     workspace: RotationalWorkspace
@@ -92,8 +99,8 @@ def new_rotational_workspace() -> RotationalWorkspace:
 def write_motion(motions, body_row, motion_out):
     """Convert a body's motion from (start, end) to (start, change).
 
-    motions (bodies, 6): centre of mass x, y [px] and angle [rad] at the start, then at the end; body_row: row of the
-    body; motion_out (6,): centre and angle at the start, then their changes.
+    motions (bodies, 6 or more): centre of mass x, y [px] and angle [rad] at the start, then at the end; body_row: row
+    of the body; motion_out (6,): centre and angle at the start, then their changes.
     """
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
@@ -174,7 +181,7 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     earlier contact with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count
     corners and the rounding radius other_radius [px]; size [px]: sum of the extents of both shapes.
     """
-    count, radius, _, _ = mover
+    count, radius = mover.count, mover.radius
     gap = workspace.advance.gap.gap
     nx, ny = gap[NX], gap[NY]
     most = fraction
@@ -192,6 +199,17 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 
 
 @subkernel
+def is_held(motion_a, motion_b, fraction, reach, slack):
+    """Return whether a mover makes less than `slack` [px] of its motion until `fraction`, so that it is held in place.
+
+    motion_a, motion_b (6,): motions of the mover and of the obstacle, see write_motion; reach [px]: greatest distance
+    of the mover's points from its centre of mass.
+    """
+    path = norm(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
+    return fraction * (path + reach * (abs(motion_a[TURN]) + abs(motion_b[TURN]))) <= slack
+
+
+@subkernel
 def sweep_part(mover, other_count, other_radius, depth, workspace):
     """Sweep the mover against a convex piece of an obstacle.
 
@@ -199,7 +217,7 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
     workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth [px]: depth of
     the mover in the whole obstacle at the start; an overlap with the piece up to this depth is not an impact.
     """
-    count, radius, half, slack = mover
+    count, radius, half, slack, sinks = mover
     reach = place_mover(count, workspace)
     if count == 1 and radius == 0.0:  # the point of a ray has no depth: touching is an impact
         fraction = advance(1, 0.0, other_count, other_radius, workspace.advance)
@@ -218,7 +236,11 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
     fraction = advance(count, radius - sink - depth, other_count, other_radius, workspace.advance)
     if fraction > 1.0:
         return MISS, False
-    return back_to(mover, other_count, other_radius, depth, fraction, size, workspace), False
+    back = back_to(mover, other_count, other_radius, depth, fraction, size, workspace)
+    if sinks and (motion[TURN] != 0.0 or other[TURN] != 0.0) and is_held(motion, other, back, reach + radius, slack):
+        separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+        return fraction, False
+    return back, False
 
 
 @subkernel
@@ -423,7 +445,7 @@ def starts_across(geometry, chain, local, mover, workspace):
 
     chain: row of geometry.chains; local: see sweep_chain; workspace: see RotationalWorkspace.
     """
-    count, radius, _, slack = mover
+    count, radius, slack = mover.count, mover.radius, mover.slack
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     u, v = rotate(local[0], local[1], math.cos(other[ANGLE]), math.sin(other[ANGLE]))
@@ -524,7 +546,7 @@ def stands_deep(row, other, sweep_inout):
     write_motion(sweep_inout.paths, shapes[other].body_row, r.motion_b)
     count = write_local(geometry, bodies, shapes, row, r.motion_a, workspace.mover)
     n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
-    mover = Mover(count, rounding(shapes, row), 0.0, 0.0)
+    mover = Mover(count, rounding(shapes, row), 0.0, 0.0, False)
     return depth_at_start(mover, n, rounding(shapes, other), workspace) > sweep_inout.slack
 
 
@@ -553,9 +575,10 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
         rounding(shapes, row),
         a.min_half_extent,
         slack,
+        sweep_inout.sinks,
     )
     if a.continuous == RAY:
-        mover = Mover(shrink_to_middle(mover.count, workspace.mover), 0.0, 0.0, slack)
+        mover = Mover(shrink_to_middle(mover.count, workspace.mover), 0.0, 0.0, slack, False)
     r.totals[0] = 0.0
     r.totals[1] = 0.0
     if o.kind == TILES:
@@ -653,7 +676,7 @@ def sweep_unions(a, b, workspace, impact_out):
     path = begin_sweep(workspace, impact_out)
     depth = 0.0
     for i in range(len(a.counts)):
-        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0, False)
         copy_part(a.corners, i, mover.count, r.local_a)
         copy_part(a.corners, i, mover.count, workspace.mover)
         for j in range(len(b.counts)):
@@ -661,7 +684,7 @@ def sweep_unions(a, b, workspace, impact_out):
             if gap_at_start(mover.count, mover.radius, b.counts[j], b.radii[j], workspace) <= 0.0:
                 depth = max(depth, depth_at_start(mover, b.counts[j], b.radii[j], workspace))
     for i in range(len(a.counts)):
-        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0, False)
         copy_part(a.corners, i, mover.count, workspace.mover)
         for j in range(len(b.counts)):
             reach_a = place_mover(mover.count, workspace)
@@ -682,7 +705,7 @@ def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
     """
     begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):
-        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0, False)
         copy_part(a.corners, i, mover.count, workspace.mover)
         if is_chain == 1:
             fraction, nx, ny, _ = sweep_chain(geometry, ground, (0.0, 0.0), mover, -1, workspace)

@@ -10,6 +10,8 @@ from physics.ccd.impacts import (
     find_rotational_impacts,
     move_back,
     stop_at_impacts,
+    stop_held,
+    turn_held,
     write_impacts,
 )
 from physics.ccd.mask_sweep import NO_SQUARES, find_shared_areas, squares_of
@@ -35,12 +37,23 @@ from physics.tables.table import joined
 # Source: Catto, Box2D v3, solver.c (half the smallest extent).
 
 
+@subkernel
+def leaves_out_rotation(body):
+    """Return whether the sweep of a body leaves out a rotation that moves its outline. body: BODY row.
+
+    The outline of a disc around its centre of mass, whose inradius is its extent, does not move.
+    """
+    return body.continuous == SWEPT and body.kind == DYNAMIC and body.extent > body.inradius
+
+
 @kernel
 def list_paths(rows, bodies, paths_out):
     """Write the path of each body in the step. O(rows).
 
-    rows: row numbers in BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then
-    after it. A body in mode "ray" or "swept" is swept without rotation: both angles are the angle before the step.
+    rows: row numbers in BODY; paths_out (bodies, 7): centre of mass x, y [px] and angle [rad] before the step, then
+    after it. A body in mode "ray" or "swept" is swept without rotation: both angles are the angle before the step. The
+    last column is the rotation [rad] that the sweep of a dynamic body in mode "swept" leaves out, otherwise 0. It is 0
+    also for discs.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -53,6 +66,7 @@ def list_paths(rows, bodies, paths_out):
         paths_out[i, 3] = b.x + u
         paths_out[i, 4] = b.y + v
         paths_out[i, 5] = b.previous_angle if b.continuous == RAY or b.continuous == SWEPT else b.angle
+        paths_out[i, 6] = b.angle - b.previous_angle if leaves_out_rotation(b) else 0.0
 
 
 @subkernel
@@ -130,7 +144,7 @@ def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
 def foresee_paths(rows, bodies, dt, paths_out):
     """Write the predicted path of each body in dt [s], at its present velocity and without obstacles. O(rows).
 
-    rows: row numbers in BODY; paths_out (bodies, 6): see list_paths.
+    rows: row numbers in BODY; paths_out (bodies, 7): see list_paths.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -141,8 +155,9 @@ def foresee_paths(rows, bodies, dt, paths_out):
         paths_out[i, 2] = b.angle
         paths_out[i, 3] = b.center_x + moves * b.vx
         paths_out[i, 4] = b.center_y + moves * b.vy
-        turns = 0.0 if b.continuous == RAY or b.continuous == SWEPT else moves * b.angular_velocity
-        paths_out[i, 5] = b.angle + turns
+        turns = moves * b.angular_velocity
+        paths_out[i, 5] = b.angle if b.continuous == RAY or b.continuous == SWEPT else b.angle + turns
+        paths_out[i, 6] = turns if leaves_out_rotation(b) else 0.0
 
 
 # ---- push ahead ------------------------------------------------------------------------------------------------------
@@ -227,7 +242,7 @@ class Sweeper:
     """Reusable arrays for the sweeps of one world."""
 
     def __init__(self) -> None:
-        self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
+        self.paths, self.cuts = np.zeros((16, 7)), np.zeros((16, 6))
         self.fast = np.zeros(16, bool)
         self.impacts = np.full((16, 8), np.nan)
         self.turning, self.workspace = new_rotational_workspace(), new_workspace()
@@ -240,16 +255,16 @@ class Sweeper:
         """
         bodies, candidates = len(state.bodies), len(state.pairs.rows)
         if len(self.fast) < bodies:
-            self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
+            self.paths, self.cuts = np.zeros((2 * bodies, 7)), np.zeros((2 * bodies, 6))
             self.fast = np.zeros(2 * bodies, bool)
         if len(self.impacts) < candidates:
             self.impacts = np.full((2 * candidates, 8), np.nan)
 
-    def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
+    def pairs_of(self, state: StepState, strict: bool = False, sinks: bool = False) -> Sweep:
         """Return the Sweep for the candidate pairs of a step.
 
         strict: True if every impact stops a body, however small the motion after the impact, as in worlds with a
-        stacking solver.
+        stacking solver. sinks: see Mover.
         """
         return Sweep(
             state.library.tables,
@@ -259,6 +274,7 @@ class Sweeper:
             strict or state.stacks,
             state.effects.one_way,
             state.tolerances.slop,
+            sinks,
             self.paths,
             self.fast,
             self.cuts,
@@ -274,7 +290,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
     """
     sweeper = state.workspace.sweep
     sweeper.grow(state)
-    sweep = sweeper.pairs_of(state, strict)
+    sweep = sweeper.pairs_of(state, strict, sinks=not strict)
     impacts = sweeper.impacts[: find_rotational_impacts(moving, state.effects.rotation, sweep, sweeper.impacts)].copy()
     masks = _masks_in(state)
     if not len(masks):
@@ -319,10 +335,14 @@ def foresee_impacts(state: StepState) -> None:
     stacking solver.
     """
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
-    found = _look_straight(state, bodies, dt, state.effects.rotation)
+    sweeper.grow(state)
     foresee_paths(rows, bodies, dt, sweeper.paths)
+    swept, straight = find_fast(rows, bodies, sweeper.paths, sweeper.fast)
+    if straight and state.effects.response:
+        turn_held(state.tolerances.speculative, sweeper.pairs_of(state))
+    found = _look_straight(state, bodies, dt, state.effects.rotation)
     bodies["fraction"][rows] = 1.0
-    if find_fast(rows, bodies, sweeper.paths, sweeper.fast)[0]:
+    if swept:
         found = np.concatenate([found, _look(state, 0), _look(state, 1)])
     state.impacts = found
     if state.effects.response:
@@ -406,14 +426,18 @@ def sweep_piles(state: StepState) -> None:
         return
     place_shapes(state)
     _cover(state)
+    if straight:
+        turn_held(state.tolerances.speculative, sweeper.pairs_of(state))
     met = _sweep_straight(state) if straight else NO_IMPACTS
     if found:
         met = np.concatenate([met, _sweep_rotational(state)])
     stopped = rows[bodies["fraction"][rows] < 1.0]
     if len(stopped):
-        state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
+        state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped, :6], bodies["fraction"][stopped]])
         gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
-        move_back(stopped, paths, *gravity, state.dt, bodies)
+        slop = state.tolerances.slop
+        move_back(stopped, paths, *gravity, state.dt, slop, bodies)
+        stop_held(state.shapes, state.pairs.rows, met, paths, slop, bodies)
         push_stopped(state, stopped)
         place_shapes(state)
     _report(state, met)
@@ -499,6 +523,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
     placed = awake if arrived else rows
     for column, name in enumerate(("center_x", "center_y", "angle")):
         sweeper.paths[placed, column] = sweeper.paths[placed, 3 + column] = bodies[name][placed]
+    sweeper.paths[placed, 6] = 0.0
     sweeper.paths[rows, 3:5] += moves
     sweeper.fast[awake] = False
     sweeper.fast[rows] = True

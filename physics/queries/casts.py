@@ -130,7 +130,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
     """
     r = workspace.advance
     corners, count, radius, _ = hull
-    mover = Mover(count, radius, 0.0, 0.0)
+    mover = Mover(count, radius, 0.0, 0.0, False)
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -148,7 +148,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
             fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, (0.0, 0.0), mover, True, -1, workspace)
         elif s.kind == CHAIN:
             near = TOUCHING_BAND * (reach_of(workspace.mover, count) + radius)
-            across = Mover(count, radius, 0.0, near)
+            across = Mover(count, radius, 0.0, near, False)
             if s.role == PART and starts_across(geometry, s.geometry, (0.0, 0.0), across, workspace):
                 continue
             fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, (0.0, 0.0), mover, -1, workspace)

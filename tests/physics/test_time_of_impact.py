@@ -241,7 +241,7 @@ def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
         new_rotational_workspace(),
     )
     fast, tables = np.zeros(2, bool), library.tables
-    found = sweep(Sweep(tables, bodies, shapes, pairs, False, True, slack, motions, fast, motions, room, work))
+    found = sweep(Sweep(tables, bodies, shapes, pairs, False, True, slack, False, motions, fast, motions, room, work))
     assert work[CAP_HITS] == 0 and work[GJK_ITERATIONS] >= 0
     return found
 

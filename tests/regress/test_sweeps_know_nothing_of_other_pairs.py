@@ -18,7 +18,7 @@ def sweep(count, other_count, half, slack, workspace):
 
     count, other_count: numbers of corners.
     """
-    return sweep_hull(Mover(count, 0.0, half, slack), 0.0, other_count, 0.0, workspace)
+    return sweep_hull(Mover(count, 0.0, half, slack, False), 0.0, other_count, 0.0, workspace)
 
 
 def hull(rng, count):
