@@ -30,8 +30,20 @@ from physics.ccd.time_of_impact import (
 )
 from physics.collision.hulls import ALL_EDGES, Hull
 from physics.collision.narrow_phase import NarrowPhase
-from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
-from physics.jit import kernel
+from physics.distance.gjk import (
+    AX,
+    AY,
+    BX,
+    BY,
+    NX,
+    NY,
+    ROUNDS,
+    copy_part,
+    new_gap_workspace,
+    separate_parts,
+    shape_separation,
+)
+from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
 from physics.queries.batches import beyond_drawn, cast, find_candidates, query_points, write_hit
 from physics.queries.index import AskedWorld, IndexedWorld
@@ -161,6 +173,61 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
         work_inout[CAP_HITS] += int(r.totals[1])
         if fraction < MISS:
             write_hit(rows[k], (fraction, nx, ny), found, hits_out)
+            found += 1
+    return found
+
+
+@subkernel
+def write_part(parts, i, workspace):
+    """Write part i of a shape to workspace.mover. Return its Mover, without slack. parts: Parts."""
+    copy_part(parts.corners, i, parts.counts[i], workspace.mover)
+    return Mover(parts.counts[i], parts.radii[i], 0.0, 0.0, False)
+
+
+@subkernel
+def is_across_surface(geometry, chain, parts, workspace):
+    """Return whether a shape made of parts overlaps a one-way surface at the start, so that its cast may pass.
+
+    chain: row of geometry.chains; parts: Parts of the shape; workspace: RotationalWorkspace with both motions.
+    """
+    for i in range(len(parts.counts)):
+        part = write_part(parts, i, workspace)
+        near = TOUCHING_BAND * (reach_of(workspace.mover, part.count) + part.radius)
+        if starts_across(geometry, chain, (0.0, 0.0), Mover(part.count, part.radius, 0.0, near, False), workspace):
+            return True
+    return False
+
+
+@kernel
+def cast_parts_at_chains(geometry, bodies, shapes, rows, parts, workspace, hits_out, work_inout):
+    """Cast a moving shape made of parts at the fronts of listed chains. Return the number of chains that are hit.
+
+    rows: SHAPE row numbers of the chains; parts: Parts of the shape relative to its start. Other arguments: see
+    cast_hull_at_rows. O(parts · links near the path).
+    """
+    r = workspace.advance
+    found = 0
+    for k in range(len(rows)):
+        s = shapes[rows[k]]
+        b = bodies[s.body_row]
+        work_inout[TOI_CALLS] += 1
+        r.motion_b[CENTER_X] = b.x
+        r.motion_b[CENTER_Y] = b.y
+        r.motion_b[ANGLE] = b.angle
+        r.totals[0] = 0.0
+        r.totals[1] = 0.0
+        if s.role == PART and is_across_surface(geometry, s.geometry, parts, workspace):
+            continue
+        best, best_x, best_y = MISS, 0.0, -1.0
+        for i in range(len(parts.counts)):
+            part = write_part(parts, i, workspace)
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, (0.0, 0.0), part, -1, workspace)
+            if fraction < best:
+                best, best_x, best_y = fraction, nx, ny
+        work_inout[GJK_ITERATIONS] += int(r.totals[0])
+        work_inout[CAP_HITS] += int(r.totals[1])
+        if best < MISS:
+            write_hit(rows[k], (best, best_x, best_y), found, hits_out)
             found += 1
     return found
 
@@ -316,13 +383,20 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
         hull = Hull(probe.corners[0], int(probe.counts[0]), float(probe.radii[0]), ALL_EDGES)
         r.motion_a[:2] = x, y
         found = cast_hull_at_rows(tables, world.bodies, world.shapes, rows[alone], hull, workspace, hits, work)
+    chains = ~alone & (s["kind"] == CHAIN)
+    if chains.any():
+        r.motion_a[:2] = x, y
+        at, tables = rows[chains], world.library.tables
+        free = hits[found:]
+        found += cast_parts_at_chains(tables, world.bodies, world.shapes, at, probe, workspace, free, work)
     r.motion_a[:2] = r.motion_b[:] = 0.0
+    others = ~(alone | chains)
     sweep_by = sweep_unions if shape._kind == MASK else advance_parts
-    for owner in np.unique(s["parent"][~alone]).tolist():
-        same = rows[~alone & (s["parent"] == owner)]
+    for owner in np.unique(s["parent"][others]).tolist():
+        same = rows[others & (s["parent"] == owner)]
         impact = np.zeros(3)
         other = _outline_at(world, same, x, y, probe, (dx, dy), feet)
-        sweep = sweep_unions if of_masks[~alone & (s["parent"] == owner)].any() else sweep_by
+        sweep = sweep_unions if of_masks[others & (s["parent"] == owner)].any() else sweep_by
         sweep(probe, other, workspace, impact)
         work[TOI_CALLS] += 1
         work[GJK_ITERATIONS] += int(r.totals[0])
