@@ -50,6 +50,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # same. So a mover that would be held at the start moves on until it is deeper by the slop (see is_held).
 
 BEFORE = 2.0**-20  # fraction of the path before an impact that counts as "just before" it
+SLAB = 4.0  # thickness of the slab behind a line, in slacks; the mover's depth in it is at most half of it
 BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are usual
 CORE_LEFT = 0.9  # radius of a core circle that would overlap at the start, as a share of its centre's distance
 CORE = 0.25  # radius of a core circle, as a share of the body's smallest half extent
@@ -142,13 +143,62 @@ def place_mover(count, workspace):
 
 
 @subkernel
+def ahead_of(ax, ay, bx, by, u, v):
+    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front.
+
+    ax, ay, bx, by: coordinates of the ends a and b of a chain link.
+    """
+    return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
+
+
+@subkernel
+def is_line(mover):
+    """Return whether a mover is a line without area, which two corners without rounding are."""
+    return mover.count == 2 and mover.radius == 0.0
+
+
+@subkernel
+def thicken_line(mover, other_count, other_radius, workspace):
+    """Return the number of corners of an obstacle after a line has become a thin slab for the sweep of another line.
+
+    Two parallel lines that pass each other are never deep in each other. The slab is behind the obstacle, as seen from
+    the middle of the mover at the start. The obstacle is in workspace.advance.local_b, with other_count corners and the
+    rounding radius other_radius [px]; other obstacles stay as they are. mover: see sweep_part.
+    """
+    if other_count != 2 or other_radius != 0.0 or not is_line(mover):
+        return other_count
+    motion, other, line = workspace.advance.motion_a, workspace.advance.motion_b, workspace.advance.local_b
+    tx, ty = line[1, 0] - line[0, 0], line[1, 1] - line[0, 1]
+    length = norm(tx, ty)
+    if length == 0.0:
+        return other_count
+    middle_x, middle_y = middle_of(workspace.mover, mover.count)
+    u, v = rotate(middle_x, middle_y, math.cos(motion[ANGLE]), math.sin(motion[ANGLE]))
+    u += motion[CENTER_X] - other[CENTER_X]
+    v += motion[CENTER_Y] - other[CENTER_Y]
+    u, v = rotate(u, v, math.cos(other[ANGLE]), -math.sin(other[ANGLE]))
+    if ahead_of(line[0, 0], line[0, 1], line[1, 0], line[1, 1], u, v) < 0.0:
+        for axis in range(2):
+            line[0, axis], line[1, axis] = line[1, axis], line[0, axis]
+        tx, ty = -tx, -ty
+    size = reach_of(workspace.mover, mover.count) + reach_of(line, 2)
+    size += norm(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
+    thick = SLAB * max(mover.slack, TOUCHING_BAND * size) / length
+    for k in range(2):
+        line[3 - k, 0] = line[k, 0] - thick * ty
+        line[3 - k, 1] = line[k, 1] + thick * tx
+    return 4
+
+
+@subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
     """Return how deep [px] the mover overlaps the hull in workspace.advance.local_b at the start; 0 without overlap.
 
     other_count, other_radius: number of corners and rounding radius [px] of this hull.
     """
     place_mover(mover.count, workspace)
-    return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
+    n = thicken_line(mover, other_count, other_radius, workspace)
+    return max(0.0, -separate_at(mover.count, mover.radius, n, other_radius, 0.0, workspace.advance))
 
 
 @subkernel
@@ -226,19 +276,22 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
         return fraction, False
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    size = reach + radius + reach_of(workspace.advance.local_b, other_count) + other_radius
+    n = thicken_line(mover, other_count, other_radius, workspace)
+    size = reach + radius + reach_of(workspace.advance.local_b, n) + other_radius
     path = norm(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
     sink = max(slack, TOUCHING_BAND * (size + path))
     if half > 0.0:
         sink = min(sink, 0.5 * half)
         if sink + depth > (1.0 - CORE) * half:
-            return sweep_core(CORE * half, other_count, other_radius, workspace), True
-    fraction = advance(count, radius - sink - depth, other_count, other_radius, workspace.advance)
+            return sweep_core(CORE * half, n, other_radius, workspace), True
+    fraction = advance(count, radius - sink - depth, n, other_radius, workspace.advance)
     if fraction > 1.0:
         return MISS, False
-    back = back_to(mover, other_count, other_radius, depth, fraction, size, workspace)
-    if sinks and (motion[TURN] != 0.0 or other[TURN] != 0.0) and is_held(motion, other, back, reach + radius, slack):
-        separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
+    back = back_to(mover, n, other_radius, depth, fraction, size, workspace)
+    turns = motion[TURN] != 0.0 or other[TURN] != 0.0
+    # A line that sinks into another line is on its other side, so it is moved back to the touch.
+    if sinks and turns and n == other_count and is_held(motion, other, back, reach + radius, slack):
+        separate_at(count, radius, n, other_radius, fraction, workspace.advance)
         return fraction, False
     return back, False
 
@@ -353,15 +406,6 @@ def place_link(link, local, workspace):
     workspace.advance.local_b[0, 1] = link.ay - local[1]
     workspace.advance.local_b[1, 0] = link.bx - local[0]
     workspace.advance.local_b[1, 1] = link.by - local[1]
-
-
-@subkernel
-def ahead_of(ax, ay, bx, by, u, v):
-    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front.
-
-    ax, ay, bx, by: coordinates of the ends a and b of a chain link.
-    """
-    return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
 @subkernel
@@ -495,8 +539,11 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
             link = geometry.links[k]
             place_link(link, local, workspace)
             fraction, core = sweep_part(mover, 2, 0.0, depth, workspace)
-            # The point of a ray is on the link at the impact, so its start determines the side.
+            # The point of a ray is on the link at the impact, so its start determines the side. A parallel line is
+            # on the link too, so the side just before the impact is used.
             when = 0.0 if mover.count == 1 and mover.radius == 0.0 else fraction
+            if is_line(mover):
+                when = max(0.0, fraction - BEFORE)
             if fraction < best and is_before(link, local, middle, when, core, workspace):
                 best = fraction
                 best_x, best_y = -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY]

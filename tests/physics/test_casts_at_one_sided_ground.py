@@ -1,6 +1,10 @@
-"""Casts and times of impact at chains and one-way masks: from their front only, for shapes of every kind."""
+"""Casts and times of impact at chains and one-way masks: from their front only, for shapes of every kind.
+
+Two parallel lines are never deep in each other; they must meet all the same.
+"""
 
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -36,6 +40,7 @@ SHAPES = {
     "box": Polygon.box(20, 20),
     "rounded": Polygon([(-8, -8), (8, -8), (8, 8), (-8, 8)], 2.0),
     "capsule": Capsule((-5, 0), (5, 0), 5),
+    "segment": Segment((-5, 0), (5, 0)),
     "upright segment": Segment((0, -5), (0, 5)),
     "box of a mask": Bounds(PixelMask(np.ones((20, 20), bool))),
     **MASKS,
@@ -89,3 +94,37 @@ def test_a_cast_of_a_mask_at_a_chain_is_its_time_of_impact(mask, chain):
             assert found.fraction == pytest.approx(wanted.fraction, abs=1e-9), (y, angle, x, dx, dy)
             hits += 1
     assert hits > 5
+
+
+ANGLES = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.3, -1e-9, -0.1)
+LINES = {"segment": Segment((-10, 0), (10, 0)), "capsule": Capsule((-10, 0), (10, 0), 1), "polygon": Polygon.box(20, 2)}
+
+
+@pytest.mark.parametrize("offset", [0.0, 1000.0, 1e5])
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("line", LINES)
+def test_a_line_meets_a_parallel_chain_from_its_front_only(line, angle, offset):
+    shape = LINES[line]
+    target = Chain([(offset - 200, offset), (offset + 200, offset)])
+    half = {"segment": 0.0, "capsule": 1.0, "polygon": math.cos(angle)}[line]
+    below = 10.0 * abs(math.sin(angle)) + half
+    start, end = (offset, offset - 5, angle), (offset, offset + 5, angle)
+    found = time_of_impact(shape, start, end, target, (0, 0), (0, 0))
+    assert found.hit
+    assert found.fraction == pytest.approx((5.0 - below) / 10.0, abs=1e-8 + 1e-13 * offset)
+    assert found.normal == pytest.approx((0.0, 1.0), abs=1e-6)
+    assert not time_of_impact(shape, end, start, target, (0, 0), (0, 0)).hit
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, math.pi / 2, 2.0, math.pi])
+@pytest.mark.parametrize("way", [1.0, 10.0, 400.0])
+def test_a_line_meets_a_turned_chain_and_a_turned_segment(turn, way):
+    """A segment that moves along the normal of a parallel line meets it halfway, wherever both point."""
+    nx, ny = math.sin(turn), -math.cos(turn)
+    shape, line = Segment((-10, 0), (10, 0)), [(-200, 0), (200, 0)]
+    start = (0.5 * way * nx, 0.5 * way * ny, turn)
+    end = (-0.5 * way * nx, -0.5 * way * ny, turn)
+    for target, back in ((Chain(line), False), (Segment(*line), True)):
+        found = time_of_impact(shape, start, end, target, (0, 0, turn), (0, 0, turn))
+        assert found.hit and found.fraction == pytest.approx(0.5, abs=1e-7)
+        assert time_of_impact(shape, end, start, target, (0, 0, turn), (0, 0, turn)).hit == back
