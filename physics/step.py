@@ -13,7 +13,7 @@ from physics.broadphase.proxies import broad_phase, motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
 from physics.character.carry import apply_character_weight, carry_characters
 from physics.character.solids import new_scratch
-from physics.collision.narrow_phase import NarrowPhase, detect_ended
+from physics.collision.narrow_phase import SKIN, NarrowPhase, detect_ended
 from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
 from physics.contacts.matching import ContactCache, find_contacts
 from physics.dynamics.integrate import (
@@ -256,10 +256,12 @@ class Workspace:
     The contents of an array are valid only during one stage, except for CONTACT rows, which later stages read.
     """
 
-    def __init__(self, effects: Effects, solver: str) -> None:
+    def __init__(self, effects: Effects, solver: str, slop: float) -> None:
         self.stacks = stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(False, one_way, boxes_only)
+        if effects.response and solver != "blocking":
+            self.narrow.skin = SKIN * slop
         # For the areas of mask contacts, which are computed on demand, only in worlds without response.
         self.telling = NarrowPhase(True, one_way, boxes_only) if not effects.response else None
         self.sensing = NarrowPhase(False, one_way, boxes_only) if effects.response and effects.sensors else None

@@ -184,8 +184,9 @@ class World(WorldState, metaclass=hints.WithForeignNames):
         return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans", "_templates")}
 
     def __setstate__(self, state):
-        effects, solver = state["_effects"], state["_solver"]
-        vars(self).update(state, workspace=Workspace(effects, solver), _plans=plans(effects, solver), _templates={})
+        effects, solver, slop = state["_effects"], state["_solver"], state["tolerances"].slop
+        workspace = Workspace(effects, solver, slop)
+        vars(self).update(state, workspace=workspace, _plans=plans(effects, solver), _templates={})
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -576,7 +577,7 @@ class World(WorldState, metaclass=hints.WithForeignNames):
             rebuild_masks(self)
 
     def _plan(self):
-        before, self.workspace = self.workspace, Workspace(self._effects, self._solver)
+        before, self.workspace = self.workspace, Workspace(self._effects, self._solver, self.tolerances.slop)
         self._plans = plans(self._effects, self._solver)
         if before is None or before.stacks != self.stacks:
             # Contact rows of solvers with and without a contact cache are not compatible.

@@ -51,6 +51,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 BEFORE = 2.0**-20  # fraction of the path before an impact that counts as "just before" it
 SLAB = 4.0  # thickness of the slab behind a line, in slacks; the mover's depth in it is at most half of it
+BEFORE_LINE = 0.25  # distance at which a line stops in front of another line, in slacks
 BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are usual
 CORE_LEFT = 0.9  # radius of a core circle that would overlap at the start, as a share of its centre's distance
 CORE = 0.25  # radius of a core circle, as a share of the body's smallest half extent
@@ -279,7 +280,8 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
     n = thicken_line(mover, other_count, other_radius, workspace)
     size = reach + radius + reach_of(workspace.advance.local_b, n) + other_radius
     path = norm(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
-    sink = max(slack, TOUCHING_BAND * (size + path))
+    # A line that sinks into another line is on its other side: none of the slack is left to it.
+    sink = TOUCHING_BAND * (size + path) if n != other_count else max(slack, TOUCHING_BAND * (size + path))
     if half > 0.0:
         sink = min(sink, 0.5 * half)
         if sink + depth > (1.0 - CORE) * half:
@@ -287,9 +289,10 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
     fraction = advance(count, radius - sink - depth, n, other_radius, workspace.advance)
     if fraction > 1.0:
         return MISS, False
+    if n != other_count:
+        depth -= BEFORE_LINE * slack  # where two lines touch, and beyond, no contact knows their sides
     back = back_to(mover, n, other_radius, depth, fraction, size, workspace)
     turns = motion[TURN] != 0.0 or other[TURN] != 0.0
-    # A line that sinks into another line is on its other side, so it is moved back to the touch.
     if sinks and turns and n == other_count and is_held(motion, other, back, reach + radius, slack):
         separate_at(count, radius, n, other_radius, fraction, workspace.advance)
         return fraction, False

@@ -8,6 +8,7 @@ from physics.collision.hull_pairs import (
     add_circle_on_piece,
     add_points_on_piece,
     advance_to_piece,
+    keep_lines_apart,
     time_to_piece,
     travel_of,
 )
@@ -498,6 +499,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                     if time == NEVER:
                         continue
                     collide_link_hull(link, points, met, reach, batch.bias, attempt == 1, workspace.points)
+                    keep_lines_apart(batch.skin, piece, hull, workspace.points)
                     meeting = Meeting(piece, travel, time, sign, part_feature(k, 0))
                     found = add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found)
     return found

@@ -532,6 +532,19 @@ def is_grazing(a, b, batch, p, q, manifold):
     return passes and path_misses(a, b, graze, vx, vy)
 
 
+@subkernel
+def keep_lines_apart(skin, a, b, points_inout):
+    """Subtract the skin [px] from the separations of a contact of two lines, hulls of two corners without rounding.
+
+    Two lines have no depth: as soon as one has sunk through the other by any distance, it is on its other side. With
+    the skin, lines that bear a load stay on their side. a, b: the Hulls; points_inout (11,): the manifold, format in
+    hulls.clip_edges.
+    """
+    if a.count == 2 and b.count == 2 and a.radius == 0.0 and b.radius == 0.0:
+        for k in range(int(points_inout[0])):
+            points_inout[5 + 4 * k] -= skin
+
+
 @inlined
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of candidate number `pair`, two hulls of two or more corners each.
@@ -564,6 +577,7 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     if points == 0 or is_grazing(a, b, batch, p, q, manifold):
         return found
     tangential = move_manifold_back(time, vx, vy, manifold) if time > 0.0 else 0.0
+    keep_lines_apart(batch.skin, a, b, manifold)
     before = found
     found = add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
     set_tangential_offset(before, found, tangential, manifolds_out)

@@ -119,6 +119,7 @@ class Batch(NamedTuple):
     bias: float  # [px] see hulls.collide_hulls
     graze: float = 0.0  # [px] largest overlap of bodies that only pass each other, see hull_pairs.py
     lookahead: float = 0.0  # [s] pairs that meet within this time get a contact, see hull_pairs.py
+    skin: float = 0.0  # [px] separation of two lines that counts as 0, see hull_pairs.py
 
 
 class Workspace(NamedTuple):

@@ -271,11 +271,12 @@ class NarrowPhase:
     """Narrow phase of one world, with arrays that are reused between steps.
 
     full_masks: True to compute area, normal and depth of pairs of masks, False to find only whether they overlap.
-    one_way: whether the world has one-way ground. boxes_only: True to compute contacts from AABBs alone.
+    one_way: whether the world has one-way ground. boxes_only: True to compute contacts from AABBs alone. The attribute
+    skin [px], see Batch, is 0 unless a solver keeps bodies apart.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
-        self.boxes_only, self.one_way = boxes_only, one_way
+        self.boxes_only, self.one_way, self.skin = boxes_only, one_way, 0.0
         masks = collide_mask_pairs_full if full_masks else collide_mask_pairs_hit
         exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
@@ -341,7 +342,8 @@ class NarrowPhase:
         """Return the Batch of the given candidates, with room for their kinds. Arguments as in `collide` and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
-        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
+        lists = library.tables, bodies, shapes, candidates, self.kinds
+        return Batch(*lists, count, margin, bias, graze, lookahead, self.skin)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
         """Return the CONTACT rows of the candidates, computed from AABBs alone, see collide_boxes.
@@ -497,6 +499,7 @@ def no_work() -> np.ndarray:
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
 BIAS = 0.1  # bias of hulls.collide_hulls, as a share of the slop
 GRAZE = 1.5  # Batch.graze, in slops; more than the one slop by which a resting body may overlap the floor
+SKIN = 0.5  # Batch.skin, in slops: more than a line sinks under its load, and too little to be seen
 
 
 def detect(state: StepState) -> np.ndarray:
