@@ -143,7 +143,7 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
         ids = [ids]
     each_id = checks.listed(ids)
     if each_id is None:
-        raise TypeError(f"ids must be Joints or ids (got {checks.shown(ids)})")
+        raise TypeError(f"ids: each joint must be a Joint or an id (got {checks.shown(ids)})")
     numbers = checks.ids("ids", [_identity(world, each) for each in each_id], repeats=True)
     rows = rows_in(world._joints, np.unique(numbers))
     if (rows < 0).any():

@@ -153,7 +153,7 @@ def _runs(effects, broadphase, solver, pieces):
         elif piece == "characters" and effects.response:
             runs.append((piece, lambda: _character(effects, solver)))
         elif piece not in PIECES:
-            raise checks.NoSuchId(f"pieces must be of {', '.join(PIECES)} (got {checks.shown(piece)})")
+            raise checks.NoSuchId(f"no piece {checks.shown(piece)}; there are {', '.join(PIECES)}")
     if effects.narrowphase:
         runs.append(
             ("several pairs", lambda: _together(effects, solver, [PAIRS[each][0] for each in PAIRS if each in pieces]))

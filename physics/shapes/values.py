@@ -151,13 +151,10 @@ class Capsule(Convex):
     def __init__(self, a: Pair, b: Pair, radius: float) -> None:
         a, b = checks.vector("a", a), checks.vector("b", b)
         radius = checks.number("radius", radius, above=0.0)
-        length = math.hypot(b[0] - a[0], b[1] - a[1])
-        if SHORTEST * max(*map(abs, a), *map(abs, b)) < length <= SHORTEST * radius:
-            raise ValueError(f"radius must be below {1.0 / SHORTEST:g} lengths of the capsule (got {radius})")
-        if length <= SHORTEST * max(*map(abs, a), *map(abs, b)):
+        if math.hypot(b[0] - a[0], b[1] - a[1]) <= SHORTEST * max(radius, *map(abs, a), *map(abs, b)):
             raise ValueError(
-                f"a and b must be two points with a length between them (got {a} and {b}); "
-                "a capsule without length is a Circle"
+                f"a and b must be two points with a length between them (got {a} and {b}), more than {SHORTEST:g} of "
+                f"the radius {radius}; a capsule without length is a Circle"
             )
         object.__setattr__(self, "a", a)
         object.__setattr__(self, "b", b)
@@ -238,7 +235,8 @@ class Polygon(Convex):
         half_height = checks.number("height", height, above=0.0) / 2.0
         if min(half_width, half_height) <= SHORTEST * max(half_width, half_height):
             raise ValueError(
-                f"width and height must differ by a factor below {1.0 / SHORTEST:g} (got {width} and {height})"
+                f"width and height must differ by a factor below {1.0 / SHORTEST:g}, or corner points would be equal "
+                f"(got {width} and {height})"
             )
         x, y = checks.vector("center", center)
         angle = checks.number("angle", angle)

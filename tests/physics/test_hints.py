@@ -240,7 +240,7 @@ CALLS = [
     ("points", POINTS["decompose"], lambda w, v: decompose(v)),
     ("width", BOX_SIDES, lambda w, v: Polygon.box(v, 1)),
     ("width", [(1e300, "by a factor below 1e+09"), (1e-12, "")], lambda w, v: Polygon.box(v, 1)),
-    ("radius", [(1e300, "below 1e+09 lengths")], lambda w, v: Capsule((0, 0), (1, 0), v)),
+    ("radius", [(1e300, "more than 1e-09 of the radius")], lambda w, v: Capsule((0, 0), (1, 0), v)),
     ("ghosts", [({(0, 0), (9, 9)}, "(before, after)"), (5, "")], lambda w, v: Chain(CORNERS, ghosts=v)),
     ("slopes", [(10**400, "got int"), ("ab", "got str")], lambda w, v: TileGrid([[False]], 8, slopes=v)),
     ("holes", [(np.array(3.0), "a list of polygons"), (5, ""), ("ab", "")], lambda w, v: decompose(CORNERS, v)),

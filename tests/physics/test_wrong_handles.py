@@ -139,7 +139,7 @@ def test_debug_functions_take_a_world_alone(name, value):
         ({"progress": 5}, TypeError, "progress must be a function (done, total, name), or None (got 5)"),
         ({"pieces": "masks"}, TypeError, "pieces must be a list of names, or None (got 'masks')"),
         ({"pieces": 5}, TypeError, "pieces must be a list"),
-        ({"pieces": ["masks", "sprites"]}, KeyError, "(got 'sprites')"),
+        ({"pieces": ["masks", "sprites"]}, KeyError, "no piece 'sprites'"),
     ],
 )
 def test_wrong_arguments_of_warmup_are_named(given, error, words):
