@@ -537,7 +537,8 @@ def stop_held(shapes, candidates, impacts, paths, slack, bodies_inout):
         if rest.kind != STATIC:
             vx -= rest.vx - rest.angular_velocity * (body.center_y - rest.center_y)
             vy -= rest.vy + rest.angular_velocity * (body.center_x - rest.center_x)
-        approach = -(vx * nx + vy * ny)
+        # The body is slowed down, never pushed: contacts do that, and a character has the velocity of what carries it.
+        approach = min(-(vx * nx + vy * ny), -(body.vx * nx + body.vy * ny))
         if approach > 0.0:
             body.vx += approach * nx
             body.vy += approach * ny
