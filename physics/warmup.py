@@ -150,6 +150,8 @@ def _runs(effects, broadphase, solver, pieces):
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
             if piece == "casts" and "masks" in pieces:
                 runs.append((piece, lambda: _casts_at_pixels(effects)))
+            if piece == "casts" and ("chains" in pieces or "one-way masks" in pieces):
+                runs.append((piece, lambda: _casts_at_a_chain(effects)))
         elif piece == "characters" and effects.response:
             runs.append((piece, lambda: _character(effects, solver)))
         elif piece not in PIECES:
@@ -387,6 +389,13 @@ def _casts_at_pixels(effects):
         world.ray_cast((-20.0, 40.0 * number), (40.0, 1.0))
         world.shape_cast(Circle(2), (-20, 40.0 * number, 0), (40, 0))
         world.closest((9.0, 40.0 * number))
+
+
+def _casts_at_a_chain(effects):
+    world = World(effects)
+    world.add_body(Chain([(0, 20), (0, -20)]), kind="static")
+    for shape in (Circle(2), MASK):
+        world.shape_cast(shape, (-20, 0, 0), (40, 0))
 
 
 def _casts(effects):

@@ -137,7 +137,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
     Write (SHAPE row number, fraction, normal x, normal y) of each hit to hits_out (rows, 4). The normal points from the
     shape to the hull. A shape that touches the hull at the start is hit at fraction 0 if the hull approaches it. rows:
-    SHAPE row numbers of the shapes, no masks; hull: a Hull with corners relative to its centre of rotation; workspace:
+    SHAPE row numbers, no masks or chains; hull: a Hull with corners relative to its centre of rotation; workspace:
     a RotationalWorkspace that contains the hull's motion; work_inout: counters, see COUNTERS.
     """
     r = workspace.advance
@@ -150,7 +150,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
         work_inout[TOI_CALLS] += 1
         r.motion_b[CENTER_X] = b.x
         r.motion_b[CENTER_Y] = b.y
-        r.motion_b[ANGLE] = b.angle if s.kind == CHAIN else 0.0
+        r.motion_b[ANGLE] = 0.0
         r.totals[0] = 0.0
         r.totals[1] = 0.0
         for i in range(count):
@@ -158,12 +158,6 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
             workspace.mover[i, 1] = corners[i, 1]
         if s.kind == TILES:
             fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, (0.0, 0.0), mover, True, -1, workspace)
-        elif s.kind == CHAIN:
-            near = TOUCHING_BAND * (reach_of(workspace.mover, count) + radius)
-            across = Mover(count, radius, 0.0, near, False)
-            if s.role == PART and starts_across(geometry, s.geometry, (0.0, 0.0), across, workspace):
-                continue
-            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, (0.0, 0.0), mover, -1, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
             place_mover(count, workspace)
@@ -376,19 +370,17 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     r, s = workspace.advance, world.shapes[rows]
     r.motion_a[:] = 0.0, 0.0, 0.0, dx, dy, 0.0
-    of_masks = (s["kind"] == MASK) | ((s["role"] == PART) & (s["kind"] != CHAIN))
-    alone = ~of_masks if shape._is_convex else np.zeros(len(rows), bool)
+    chains = s["kind"] == CHAIN
+    of_masks = ~chains & ((s["kind"] == MASK) | (s["role"] == PART))
+    alone = ~(of_masks | chains) if shape._is_convex else np.zeros(len(rows), bool)
+    tables, bodies, shapes = world.library.tables, world.bodies, world.shapes
+    r.motion_a[:2] = x, y
     if alone.any():
-        tables = world.library.tables
         hull = Hull(probe.corners[0], int(probe.counts[0]), float(probe.radii[0]), ALL_EDGES)
-        r.motion_a[:2] = x, y
-        found = cast_hull_at_rows(tables, world.bodies, world.shapes, rows[alone], hull, workspace, hits, work)
-    chains = ~alone & (s["kind"] == CHAIN)
+        found = cast_hull_at_rows(tables, bodies, shapes, rows[alone], hull, workspace, hits, work)
     if chains.any():
-        r.motion_a[:2] = x, y
-        at, tables = rows[chains], world.library.tables
         free = hits[found:]
-        found += cast_parts_at_chains(tables, world.bodies, world.shapes, at, probe, workspace, free, work)
+        found += cast_parts_at_chains(tables, bodies, shapes, rows[chains], probe, workspace, free, work)
     r.motion_a[:2] = r.motion_b[:] = 0.0
     others = ~(alone | chains)
     sweep_by = sweep_unions if shape._kind == MASK else advance_parts
