@@ -464,7 +464,7 @@ def _targets(arrays) -> dict:
 
 # Increased by every change of the program that changes the digest of some world. Older recordings can still be played,
 # but may diverge.
-PHYSICS_VERSION = 11
+PHYSICS_VERSION = 12
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = tuple(f"{test}_{name}" for test in ("still", "rocking") for name in ("x", "y", "angle"))
 CLOCK = (*CLOCK, "sleep_time", "rocking_time")

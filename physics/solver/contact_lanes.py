@@ -41,7 +41,8 @@ from physics.solver import lanes as at
 from physics.solver.energy import FACING, find_squeezed
 from physics.solver.joint_couplings import begin_couplings, estimate_couplings
 from physics.solver.joint_direct import JointSet, Trees
-from physics.solver.joint_rows import begin_joints, estimate_joints, list_joints
+from physics.solver.joint_report import estimate_joints
+from physics.solver.joint_rows import begin_joints, list_joints
 from physics.solver.lanes import (
     LANES,
     PREPARE,
@@ -505,7 +506,7 @@ def estimate_substeps(
         rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
     )
     if len(group.joints):
-        estimate_joints(group.joints, state.joints, rate, state.dt, state.accuracy, motions.used)
+        estimate_joints(group.joints, state.joints, group.substeps, rules, state.accuracy, motions.used)
     if isinstance(joints, JointSet) and len(joints.couplings):
         estimate_couplings(joints.couplings, state.joints, rate, motions.used)
     links = motions.lists.links_islands

@@ -68,8 +68,9 @@ def follow_teeth(joint_inout):
 def begin_gear(bodies, h, gear, coupling_out, joints_inout):
     """Write to a COUPLING row the joints of a gear, and the angles of its bodies at the start of a step.
 
-    A joint of the gear that is not solved in this step is initialised here. bodies: BODY rows; h [s]: length of a
-    substep; gear: JOINT row of the gear; joints_inout: all JOINT rows.
+    A joint of the gear that is not solved in this step is initialised here. Both joints lose JOINT.is_pin, because a
+    gear reads their coordinates. bodies: BODY rows; h [s]: length of a substep; gear: JOINT row of the gear;
+    joints_inout: all JOINT rows.
     """
     j, c = gear, coupling_out
     c.row_a, c.row_b = row_of(joints_inout, j.joint_a), row_of(joints_inout, j.joint_b)
@@ -77,7 +78,10 @@ def begin_gear(bodies, h, gear, coupling_out, joints_inout):
     c.start_b = bodies[j.body_row_b].angle if j.body_row_b >= 0 else 0.0
     for side in range(2):
         row = c.row_a if side == 0 else c.row_b
-        if row >= 0 and not joints_inout[row].awake:
+        if row < 0:
+            continue
+        joints_inout[row].is_pin = False
+        if not joints_inout[row].awake:
             begin_joint(bodies, h, joints_inout[row])
 
 

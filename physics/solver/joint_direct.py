@@ -30,6 +30,7 @@ from physics.solver.joint_rows import (
     holds_point,
     impulse_of,
     inverse_mass_along,
+    is_rigid_pin,
     place_joint,
     softness_of,
     solve_joints,
@@ -144,7 +145,7 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Record in JOINT.direct whether each joint of a group is in a tree. Return the number of joints with a spring.
+    """Write JOINT.direct (the joint is in a tree) and is_pin of a group. Return the number of joints with a spring.
 
     O(rows). Only springs on coordinates count. The flags that joint_schur.py sets are cleared. rows: indices of JOINT
     rows; taken: for each of these rows, True if the joint is in a tree.
@@ -153,6 +154,7 @@ def mark_direct(rows, taken, joints_inout):
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         j.direct = taken[k]
+        j.is_pin = not j.direct and is_rigid_pin(j)
         j.exact_limits, j.exact_motor, j.in_open_tree = False, False, False
         springs += int(has_spring(j))
     return springs

@@ -1,4 +1,7 @@
-"""Report of joints after a step, as in `world.joints`: coordinates, speeds, errors, and whether a joint broke."""
+"""Report of joints after a step, as in `world.joints`: forces, coordinates, speeds, errors, and whether a joint broke.
+
+Also here: the impulses that are kept for the next step, and the number of substeps that the joints need.
+"""
 
 import numpy as np
 
@@ -114,8 +117,8 @@ def report_joints(bodies, joints_inout):
             vx, vy = velocity_at(b, bx, by)
         if j.body_row_a >= 0:
             a = bodies[j.body_row_a]
-            ax, ay = place_anchor(a, ax, ay)
             c, s = rotation_of(a.angle)
+            ax, ay = a.x + c * ax - s * ay, a.y + s * ax + c * ay
             nx, ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
             angle -= a.angle
             spin -= a.angular_velocity
@@ -155,3 +158,62 @@ def mark_sleeping(bodies: np.ndarray, joints: np.ndarray) -> None:
     """Clear the column `awake` of the joints that have no awake body. bodies: BODY rows; joints: JOINT rows."""
     a, b = joints["body_row_a"], joints["body_row_b"]
     joints["awake"] &= ((a >= 0) & bodies["awake"][a]) | ((b >= 0) & bodies["awake"][b])
+
+
+# ---- forces and loads ------------------------------------------------------------------------------------------------
+
+
+@kernel
+def store_joints(rows, context, joints_inout):
+    """Write the forces of the step, and the cached forces for the next step, to the joints. O(rows).
+
+    rows: indices of JOINT rows; context: see StepContext.
+    """
+    rest = 1.0 - context.share
+    rate = context.share * context.inverse_h
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        j.force_x, j.force_y = j.total_x * context.inverse_dt, j.total_y * context.inverse_dt
+        j.torque = j.total_torque * context.inverse_dt
+        j.point_force_x = rate * j.point_x + rest * j.point_force_x
+        j.point_force_y = rate * j.point_y + rest * j.point_force_y
+        j.hold_torque = rate * j.hold_impulse + rest * j.hold_torque
+        j.spring_force = rate * j.spring + rest * j.spring_force
+        j.motor_force = rate * j.motor + rest * j.motor_force
+        j.lower_force = rate * j.low + rest * j.lower_force
+        j.upper_force = rate * j.high + rest * j.upper_force
+
+
+@kernel
+def estimate_joints(rows, joints, substeps, rules, accuracy, motions_inout):
+    """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
+
+    In the iterative tier, a joint's spring has twice the frequency of a contact's spring, so the joint sags by a
+    quarter as much. For the force of a joint, as for the load of a contact, an island takes at most rules.most_by_load
+    substeps; MOTION.capped is set if it would need more. The sag of a held angle counts in full, because it adds up
+    along a beam. In both tiers, if an arm r rotates by an angle φ in a substep, its anchor is displaced by r φ² / 2.
+
+    rows: indices of JOINT rows; substeps: number in this step; rules: see substeps.LoadRules; accuracy [px]: greatest
+    accepted error. motions_inout: MOTION rows.
+    """
+    reach = max(substeps, rules.most_by_load)
+    reach_squared = float(reach * reach)
+    by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)  # see contact_lanes.add_estimates
+    for k in range(len(rows)):
+        j = joints[rows[k]]
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        arm_a, arm_b = norm(j.ax, j.ay), norm(j.bx, j.by)
+        turn_a, turn_b = rules.dt * a.angular_velocity, rules.dt * b.angular_velocity
+        estimate = 0.5 * max(turn_a * turn_a * arm_a, turn_b * turn_b * arm_b) / accuracy
+        if not j.direct:
+            per_sag = 0.25 * rules.rate
+            compliance = a.inverse_mass + b.inverse_mass
+            compliance += a.inverse_inertia * arm_a * arm_a + b.inverse_inertia * arm_b * arm_b
+            stretch = per_sag * norm(j.total_x, j.total_y) * compliance
+            capped = stretch > reach_squared
+            a.capped = a.capped or capped
+            b.capped = b.capped or capped
+            bend = abs(j.hold_impulse) * (a.inverse_inertia + b.inverse_inertia) * max(arm_a, arm_b)
+            estimate = max(estimate, min(stretch, by_load), per_sag * bend)
+        a.estimate = max(a.estimate, estimate)
+        b.estimate = max(b.estimate, estimate)

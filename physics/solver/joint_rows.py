@@ -106,17 +106,6 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 # ---- geometry --------------------------------------------------------------------------------------------------------
 
 
-@inlined
-def arm_of(body, x, y):
-    """Return the vector (x, y) [px] in world axes from a body's centre of mass to a point of the body. body: BODY row.
-
-    x, y [px]: the point in the space of the body.
-    """
-    c, s = rotation_of(body.angle)
-    u, v = x - body.local_center_x, y - body.local_center_y
-    return c * u - s * v, s * u + c * v
-
-
 @subkernel
 def begin_joint(bodies, h, joint_inout):
     """Write the anchors, axis and angle of a joint at the start of a step, and its warm-start impulses for a substep.
@@ -131,14 +120,17 @@ def begin_joint(bodies, h, joint_inout):
     if j.body_row_a >= 0:
         body = bodies[j.body_row_a]
         angle_a = body.angle
-        j.arm_ax, j.arm_ay = arm_of(body, ax, ay)
-        ax, ay = body.center_x + j.arm_ax, body.center_y + j.arm_ay
         c, s = rotation_of(angle_a)
+        u, v = ax - body.local_center_x, ay - body.local_center_y
+        j.arm_ax, j.arm_ay = c * u - s * v, s * u + c * v
+        ax, ay = body.center_x + j.arm_ax, body.center_y + j.arm_ay
         j.start_nx, j.start_ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
     if j.body_row_b >= 0:
         body = bodies[j.body_row_b]
         angle_b = body.angle
-        j.arm_bx, j.arm_by = arm_of(body, bx, by)
+        c, s = rotation_of(angle_b)
+        u, v = bx - body.local_center_x, by - body.local_center_y
+        j.arm_bx, j.arm_by = c * u - s * v, s * u + c * v
         bx, by = body.center_x + j.arm_bx, body.center_y + j.arm_by
     j.base_x, j.base_y = bx - ax, by - ay
     j.start_angle = angle_b - angle_a - j.reference
@@ -159,16 +151,26 @@ def begin_joints(rows, bodies, h, joints_inout):
 
 
 @subkernel
+def place_anchors(a, b, joint_inout):
+    """Compute the moment arms and the anchor offset of a joint at the present poses. a, b: MOTION rows.
+
+    joint_inout: JOINT row. The arms are to the anchors of both bodies.
+    """
+    j = joint_inout
+    j.ax, j.ay = a.cosine * j.arm_ax - a.sine * j.arm_ay, a.sine * j.arm_ax + a.cosine * j.arm_ay
+    j.bx, j.by = b.cosine * j.arm_bx - b.sine * j.arm_by, b.sine * j.arm_bx + b.cosine * j.arm_by
+    j.apart_x = j.base_x + (b.dx - a.dx) + (j.bx - j.arm_bx) - (j.ax - j.arm_ax)
+    j.apart_y = j.base_y + (b.dy - a.dy) + (j.by - j.arm_by) - (j.ay - j.arm_ay)
+
+
+@subkernel
 def place_joint(a, b, joint_inout):
     """Compute the moment arms, axis, angle and anchor offset of a joint at the present poses.
 
     a, b: MOTION rows; joint_inout: JOINT row.
     """
     j = joint_inout
-    ax, ay = a.cosine * j.arm_ax - a.sine * j.arm_ay, a.sine * j.arm_ax + a.cosine * j.arm_ay
-    bx, by = b.cosine * j.arm_bx - b.sine * j.arm_by, b.sine * j.arm_bx + b.cosine * j.arm_by
-    j.apart_x = j.base_x + (b.dx - a.dx) + (bx - j.arm_bx) - (ax - j.arm_ax)
-    j.apart_y = j.base_y + (b.dy - a.dy) + (by - j.arm_by) - (ay - j.arm_ay)
+    place_anchors(a, b, j)
     j.turn = j.start_angle + b.turn - a.turn
     if j.coordinate == LENGTH:
         length = norm(j.apart_x, j.apart_y)
@@ -179,9 +181,8 @@ def place_joint(a, b, joint_inout):
         j.ny = a.sine * j.start_nx + a.cosine * j.start_ny
     if j.hold == ON_AXIS or j.coordinate == TRANSLATION:
         # The axis rotates with A, so the impulse on A also acts at B's anchor.
-        ax += j.apart_x
-        ay += j.apart_y
-    j.ax, j.ay, j.bx, j.by = ax, ay, bx, by
+        j.ax += j.apart_x
+        j.ay += j.apart_y
 
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
@@ -370,6 +371,20 @@ def bounded(value, most):
 
 
 @inlined
+def slowed(bias, most, mass_share, give):
+    """Return (factor on the bias, mass_share, give) of a soft part whose bias is limited to a speed `most`.
+
+    An impulse loses the share `give` in each substep. With a limited bias and the same `give`, the greatest force would
+    be limited too: a loaded net stretched without end. So `give` shrinks as the bias does, and the part stays a spring
+    of the same stiffness. bias: size of the bias without the limit; mass_share, give: see softness_of.
+    """
+    if not bias > most:
+        return 1.0, mass_share, give
+    factor = most / bias
+    return factor, 1.0 - factor * give, factor * give
+
+
+@inlined
 def holds_point(joint):
     """Return whether the tree solver can solve the anchors of a joint: they are held together, with unbounded force."""
     return joint.hold != FREE and joint.follows_point and joint.point_max == math.inf
@@ -399,6 +414,14 @@ def is_coordinate_free(joint):
     j = joint
     unlimited = j.lower == -math.inf and j.upper == math.inf
     return j.coordinate == NO_COORDINATE or (j.spring_hertz == 0.0 and j.motor_max == 0.0 and unlimited)
+
+
+@inlined
+def is_rigid_pin(joint):
+    """Return whether a joint only holds its anchors together, rigidly, in both directions and at any force."""
+    j = joint
+    rigid = j.hold == PINNED and j.follows_point and j.point_hertz == 0.0 and j.point_max == math.inf
+    return rigid and not j.locks_angle and not has_motor(j) and is_coordinate_free(j)
 
 
 @inlined
@@ -497,7 +520,9 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
     if gap > 0.0:
         change = -mass * (speed + gap * inverse_h)
     else:
-        change = -mass * mass_share * (speed + max(bias_rate * gap, -most)) - give * old
+        bias = bias_rate * gap
+        factor, mass_share, give = slowed(-bias, most, mass_share, give)
+        change = -mass * mass_share * (speed + factor * bias) - give * old
         # A motor may press so hard on the limit that the softness alone would let it pass.
         change = max(change, -mass * speed)
     return max(old + change, 0.0) - old
@@ -533,8 +558,9 @@ def solve_coordinate(biased, soft, context, joint_inout, a_inout, b_inout):
         if j.direct:
             return
         rate, mass_share, give = soft
-        bias = bounded(rate * (now - j.lower), most)
-        change = -mass * mass_share * (coordinate_speed(j, a, b) + bias) - give * j.low
+        bias = rate * (now - j.lower)
+        factor, mass_share, give = slowed(abs(bias), most, mass_share, give)
+        change = -mass * mass_share * (coordinate_speed(j, a, b) + factor * bias) - give * j.low
         j.low += change
         push_coordinate(j, change, a, b)
         return
@@ -582,8 +608,9 @@ def solve_hold_across(soft, context, joint_inout, a_inout, b_inout):
         return
     rate, mass_share, give = soft
     across = j.apart_y * j.nx - j.apart_x * j.ny
-    bias = bounded(rate * across, context.push_speed)
-    change = -mass_share * (speed_across(j, -j.ny, j.nx, a, b) + bias) / inverse - give * j.point_y
+    bias = rate * across
+    factor, mass_share, give = slowed(abs(bias), context.push_speed, mass_share, give)
+    change = -mass_share * (speed_across(j, -j.ny, j.nx, a, b) + factor * bias) / inverse - give * j.point_y
     j.point_y += change
     push(j, -j.ny * change, j.nx * change, 0.0, a, b)
 
@@ -606,9 +633,8 @@ def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
         rate, mass_share, give = softness_of(j.point_hertz, j.point_damping, context.h)
     bias_x, bias_y = rate * j.apart_x, rate * j.apart_y
     if max(abs(bias_x), abs(bias_y)) > 0.5 * context.push_speed and j.point_hertz == 0.0:
-        fast = norm(bias_x, bias_y)
-        if fast > context.push_speed:
-            bias_x, bias_y = bias_x * context.push_speed / fast, bias_y * context.push_speed / fast
+        factor, mass_share, give = slowed(norm(bias_x, bias_y), context.push_speed, mass_share, give)
+        bias_x, bias_y = factor * bias_x, factor * bias_y
     if not j.follows_point:
         mass_share, give = 1.0, 0.0
         bias_x = j.ny * j.target_vy - j.nx * j.target_vx  # nx, ny: the x axis of A
@@ -624,6 +650,32 @@ def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
         if size > most:
             j.point_x *= most / size
             j.point_y *= most / size
+    push(j, j.point_x - before_x, j.point_y - before_y, 0.0, a, b)
+
+
+@subkernel
+def solve_pin(soft, push_speed, joint_inout, a_inout, b_inout):
+    """Solve a joint with JOINT.is_pin. The result is that of solve_hold_of_point, to the bit, in less time.
+
+    It reads three cache lines of the row, and a substep of a net of 4,900 pins takes .6 of the time.
+    soft: result of rigid_softness; push_speed [px/s]: greatest speed at which a gap closes; joint_inout: JOINT row;
+    a_inout, b_inout: MOTION rows.
+    """
+    j, a, b = joint_inout, a_inout, b_inout
+    k_11, k_12, k_22 = point_inverse_mass(j, a, b)
+    determinant = k_11 * k_22 - k_12 * k_12
+    if determinant <= 0.0:
+        return
+    rate, mass_share, give = soft
+    bias_x, bias_y = rate * j.apart_x, rate * j.apart_y
+    if max(abs(bias_x), abs(bias_y)) > 0.5 * push_speed:
+        factor, mass_share, give = slowed(norm(bias_x, bias_y), push_speed, mass_share, give)
+        bias_x, bias_y = factor * bias_x, factor * bias_y
+    x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
+    y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
+    before_x, before_y = j.point_x, j.point_y
+    j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
+    j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
     push(j, j.point_x - before_x, j.point_y - before_y, 0.0, a, b)
 
 
@@ -665,11 +717,18 @@ def warm_joints(rows, first, wide_gap, joints_inout, motions_inout):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
         if first:
-            place_joint(a, b, j)
-            if has_wide_gap(j, wide_gap):
-                a.has_wide_gap = True
-                b.has_wide_gap = True
-        x, y, torque = impulse_of(j)
+            if j.is_pin:
+                place_anchors(a, b, j)
+                far = norm(j.apart_x, j.apart_y) > wide_gap
+            else:
+                place_joint(a, b, j)
+                far = has_wide_gap(j, wide_gap)
+            a.has_wide_gap = a.has_wide_gap or far
+            b.has_wide_gap = b.has_wide_gap or far
+        if j.is_pin:
+            x, y, torque = j.point_x, j.point_y, 0.0
+        else:
+            x, y, torque = impulse_of(j)
         if not first:
             j.total_x += x
             j.total_y += y
@@ -690,6 +749,11 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        if j.is_pin:
+            if not biased:
+                place_anchors(a, b, j)
+            solve_pin(soft, context.push_speed, j, a, b)
+            continue
         if not biased:
             place_joint(a, b, j)
         if j.turns_motor and j.motor_max > 0.0 and not j.exact_motor:
@@ -711,63 +775,11 @@ def sum_joints(rows, joints_inout):
     """Add the impulses of the last substep to the totals of the step. rows: indices of JOINT rows. O(rows)."""
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
+        if j.is_pin:
+            j.total_x += j.point_x
+            j.total_y += j.point_y
+            continue
         x, y, torque = impulse_of(j)
         j.total_x += x
         j.total_y += y
         j.total_torque += torque
-
-
-# ---- store -----------------------------------------------------------------------------------------------------------
-
-
-@kernel
-def store_joints(rows, context, joints_inout):
-    """Write the forces of the step, and the cached forces for the next step, to the joints. O(rows).
-
-    rows: indices of JOINT rows; context: see StepContext.
-    """
-    rest = 1.0 - context.share
-    rate = context.share * context.inverse_h
-    for k in range(len(rows)):
-        j = joints_inout[rows[k]]
-        j.force_x, j.force_y = j.total_x * context.inverse_dt, j.total_y * context.inverse_dt
-        j.torque = j.total_torque * context.inverse_dt
-        j.point_force_x = rate * j.point_x + rest * j.point_force_x
-        j.point_force_y = rate * j.point_y + rest * j.point_force_y
-        j.hold_torque = rate * j.hold_impulse + rest * j.hold_torque
-        j.spring_force = rate * j.spring + rest * j.spring_force
-        j.motor_force = rate * j.motor + rest * j.motor_force
-        j.lower_force = rate * j.low + rest * j.lower_force
-        j.upper_force = rate * j.high + rest * j.upper_force
-
-
-@kernel
-def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
-    """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
-
-    In the iterative tier, a joint's spring has twice the frequency of a contact's spring, so the joint sags by a
-    quarter as much. In both tiers, if an arm r rotates by an angle φ in a substep, its anchor is displaced by r φ² / 2.
-    rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]: greatest accepted
-    error. motions_inout: MOTION rows.
-    """
-    for k in range(len(rows)):
-        j = joints[rows[k]]
-        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
-        estimate = 0.0
-        for side in range(2):
-            m = a if side == 0 else b
-            arm = norm(j.ax, j.ay) if side == 0 else norm(j.bx, j.by)
-            turn = dt * m.angular_velocity
-            estimate = max(estimate, 0.5 * turn * turn * arm / accuracy)
-        if not j.direct:
-            sag = norm(j.total_x, j.total_y) * (
-                a.inverse_mass
-                + b.inverse_mass
-                + a.inverse_inertia * (j.ax * j.ax + j.ay * j.ay)
-                + b.inverse_inertia * (j.bx * j.bx + j.by * j.by)
-            )
-            lever = max(norm(j.ax, j.ay), norm(j.bx, j.by))
-            sag = max(sag, abs(j.hold_impulse) * (a.inverse_inertia + b.inverse_inertia) * lever)
-            estimate = max(estimate, 0.25 * rate * sag)
-        a.estimate = max(a.estimate, estimate)
-        b.estimate = max(b.estimate, estimate)

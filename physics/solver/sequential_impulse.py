@@ -34,7 +34,7 @@ from physics.solver.joint_direct import (
     solve_once,
     start_joints,
 )
-from physics.solver.joint_rows import store_joints
+from physics.solver.joint_report import store_joints
 from physics.solver.lanes import (
     SIZE,
     gather_velocities,

@@ -17,7 +17,7 @@ from physics.solver.joint_direct import (
     solve_all_trees,
     start_joints,
 )
-from physics.solver.joint_rows import store_joints
+from physics.solver.joint_report import store_joints
 from physics.solver.lanes import (
     IN_CONTACT,
     SIZE,

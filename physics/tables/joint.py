@@ -78,39 +78,40 @@ STATE = (  # fields on which the next step depends
     ("upper_force", np.float64),  # impulse per second of the upper limit
 )
 SCRATCH = (  # rows in this step, and solver fields, which the solver writes before it reads them
-    ("body_row_a", np.int32),  # rows of BODY; -1: the world
-    ("body_row_b", np.int32),
     ("motion_a", np.int32),  # rows of MOTION
     ("motion_b", np.int32),
+    ("is_pin", np.bool_),  # solved by joint_rows.solve_pin, which reads the fields up to total_y
     ("arm_ax", np.float64),  # [px] anchor relative to the centre of mass, at the start of the step
     ("arm_ay", np.float64),
     ("arm_bx", np.float64),
     ("arm_by", np.float64),
     ("base_x", np.float64),  # [px] vector from A's anchor to B's anchor at the start of the step
     ("base_y", np.float64),
-    ("start_nx", np.float64),  # axis at the start of the step
-    ("start_ny", np.float64),
-    ("start_angle", np.float64),  # [rad] angle of the joint at the start of the step
     ("ax", np.float64),  # [px] moment arms in the present substep, see joint_rows.place_joint
     ("ay", np.float64),
     ("bx", np.float64),
     ("by", np.float64),
     ("apart_x", np.float64),  # [px] vector from A's anchor to B's anchor in the present substep
     ("apart_y", np.float64),
+    ("point_x", np.float64),  # impulses in the present substep
+    ("point_y", np.float64),
+    ("total_x", np.float64),  # impulses of the step on B
+    ("total_y", np.float64),
+    ("total_torque", np.float64),  # angular impulse of the step on B
+    ("body_row_a", np.int32),  # rows of BODY; -1: the world
+    ("body_row_b", np.int32),
+    ("start_nx", np.float64),  # axis at the start of the step
+    ("start_ny", np.float64),
+    ("start_angle", np.float64),  # [rad] angle of the joint at the start of the step
     ("nx", np.float64),  # axis in the present substep
     ("ny", np.float64),  # likewise
     ("turn", np.float64),  # [rad] angle of the joint in the present substep
-    ("point_x", np.float64),  # impulses in the present substep
-    ("point_y", np.float64),
     ("hold_impulse", np.float64),  # impulse that holds the angle
     ("spring", np.float64),  # impulse of the spring
     ("spring_aim", np.float64),  # [px/s or rad/s] velocity for which the spring aims in the substep, see aim_springs
     ("motor", np.float64),  # impulse of the motor
     ("low", np.float64),  # impulse of the lower limit
     ("high", np.float64),  # impulse of the upper limit
-    ("total_x", np.float64),  # impulses of the step on B
-    ("total_y", np.float64),
-    ("total_torque", np.float64),  # angular impulse of the step on B
 )
 COUPLED_STATE = (  # fields of gears, pulleys and ratchets on which the next step depends; 0 for other kinds
     ("joint_a", np.int64),  # ids of the joints that a gear couples; NO_JOINT: it couples body_a, body_b itself
