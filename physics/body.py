@@ -189,7 +189,7 @@ class Body(Handle, metaclass=hints.WithForeignNames):
             if columns["kind"][row] == STATIC:
                 raise ValueError(f"angular_velocity must be 0 for static body {identity} (got {value})")
             teleport.check_no_character(world, identity, "angular_velocity")
-            edit.check_grid_stands(self.shapes, value)
+            edit.check_grid_stands(world._shapes_of[identity], value)
         columns["angular_velocity"][row] = value
         world._targets.pop(identity, None)
         self._stir(row)

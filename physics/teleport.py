@@ -25,8 +25,10 @@ def check_no_character(world: WorldState, ids: Any, name: str) -> None:
 
     ids: one or many ids of bodies; name: name of the value that is to be set.
     """
+    if not world.characters.count:
+        return
     own = world.characters.rows["body"]
-    if len(own) and np.isin(own, ids).any():
+    if np.isin(own, ids).any():
         body = own[np.isin(own, ids)][0]
         raise ValueError(
             f"{name} of body {body} is set by its Character: write character.move_to(position) to teleport it, "
@@ -44,7 +46,8 @@ def move_to(
     """
     world._unstepped()
     at, columns = world._row_at(identity), world._bodies.columns
-    if columns["kind"][at] == KINEMATIC and not of_character:
+    kind = columns["kind"][at]
+    if kind == KINEMATIC and not of_character:
         check_no_character(world, identity, "position" if angle is None else "angle")
     if angle:
         check_grid_stands(world._shapes_of[identity], angle, "angle")
@@ -55,8 +58,8 @@ def move_to(
     if world._targets:
         world._targets.pop(identity, None)
     at = refresh_pose(world, identity, at)
-    if columns["kind"][at] == DYNAMIC:
-        world.contact_lists.forget_loads(world, np.array([at]))
+    if kind == DYNAMIC:
+        world.contact_lists.forget_loads_of(world, at)
 
 
 class Motions(NamedTuple):
