@@ -97,7 +97,7 @@ def make_parser() -> Parser:
     add("--advise", metavar="SCENE", help="measure every setting of a scene, and report which takes the least time")
     add("--error", metavar="PX", type=float, help="that the advice may cost (1 px: what can be seen)")
     add("--report", metavar="DIR", help="measure what accuracy costs, and write it as a page; goes on where it ended")
-    add("--quick", action="store_true", help="of the report: smaller and fewer, two minutes")
+    add("--quick", action="store_true", help="of the report: smaller and fewer, about a minute")
     add("--workers", metavar="N", type=int, help="of the report: in so many processes")
     add("--dask", metavar="ADDRESS", help="of the report: on the workers of a Dask cluster")
     add("--only", metavar="JOBS", help="of the report: measure these again, as broadphases or pyramid/*")

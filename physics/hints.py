@@ -7,7 +7,7 @@ functions run only after an argument was rejected, so valid arguments take no ex
 import difflib
 import numbers
 from abc import ABCMeta
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import FrozenInstanceError
 from functools import wraps
 from inspect import Parameter, getattr_static, signature
@@ -613,24 +613,18 @@ def in_place_of_filter(value: Any) -> str:
     return ": write Filter(membership=…, mask=…), or Filter.ALL"
 
 
-LONGEST_NAME, MOST_NAMES = 30, 20  # characters of a name, and names, that a hint repeats
+MOST_NAMES = 20  # names that a hint repeats
 
 
-def _is_short_name(value):
-    """Return whether a value is a str that is a valid Python identifier of at most LONGEST_NAME characters."""
-    return isinstance(value, str) and value.isidentifier() and len(value) <= LONGEST_NAME
-
-
-def in_place_of_effects(value: Any) -> str:
-    """Return the hint for a wrong value that was passed instead of an Effects; "" if there is no hint."""
+def in_place_of_effects(value: Any, effects: Collection[str]) -> str:
+    """Return the hint for a wrong value that was passed instead of an Effects. effects: names of all effects."""
     if is_class(value, "Effects"):
         return ": write Effects()"
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
         return f": write Effects.{value.__name__}()"
-    if isinstance(value, str):
-        return f": write Effects({value}=True)" if _is_short_name(value) else ""
-    names = [*value] if isinstance(value, (dict, list, tuple, set, frozenset)) else []
-    if 0 < len(names) <= MOST_NAMES and all(map(_is_short_name, names)):
+    given = (value,) if isinstance(value, str) else value
+    names = [*given] if isinstance(given, (dict, list, tuple, set, frozenset)) else []
+    if 0 < len(names) <= MOST_NAMES and all(isinstance(each, str) and each in effects for each in names):
         on = [each for each in sorted(names) if not isinstance(value, dict) or value[each]]
         return f": write Effects({', '.join(f'{each}=True' for each in on)})"
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"

@@ -97,10 +97,10 @@ def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
         _line("now", here, here, survey),
     ]
     if best is None:
-        lines += [_tried(each, here) for each in tried]
+        lines += [_tried(each, here, best) for each in tried]
         return [*lines, f"nothing with which the scene can play is within {limit}"]
     lines += [_line("within", each, here, survey) for each in advice.within if each not in (here, best)]
-    lines += [_tried(each, here) for each in tried]
+    lines += [_tried(each, here, best) for each in tried]
     if best == here:
         return [*lines, f"advice: leave it; within {limit} nothing is surely cheaper over the whole run"]
     lines.append(_line("advice", best, here, survey))
@@ -118,13 +118,16 @@ def _encounters(overview):
     return [f"boxes over the run: {wrong.count} of {wrong.total} hits are false ({low} to {high} of 100)"]
 
 
-def _tried(applied: Applied, here: Setting) -> str:
-    """Return a line of text on a setting that was tested on the whole run. here: the current setting."""
+def _tried(applied: Applied, here: Setting, best: Setting | None) -> str:
+    """Return a line of text on a setting that was tested on the whole run.
+
+    here: the current setting; best: the advised one. It may be no faster if the error of `here` exceeds the limit.
+    """
     if applied.refused:
         return f"tried   {applied.setting.label(here)}: {applied.refused}"
     least, most = applied.interval
     measured = f"measured {applied.mean:.2f} ({least:.2f} to {most:.2f}), p99 {applied.p99:.2f}, {APPLIED_RUNS} runs"
-    end = "holds" if applied.holds else "withdrawn"
+    end = "holds" if applied.holds else "dearer, but exact enough" if applied.setting == best else "withdrawn"
     return f"tried   {applied.setting.label(here)}: predicted {applied.predicted:.2f}, {measured}: {end}"
 
 

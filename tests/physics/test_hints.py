@@ -184,6 +184,8 @@ EFFECTS = [
     (Effects, "Effects()"),
     (Effects.rigid_bodies, "Effects.rigid_bodies()"),
     (7, "Effects.rigid_bodies()"),
+    ("brute", "(got 'brute'): write Effects.rigid_bodies()"),
+    (["gravity", "brute"], "Effects.rigid_bodies()"),
 ]
 FLAG = [(1, "True"), (0, "False"), ("yes", ""), (None, "")]
 NUMBER = [("5", ""), ([5], ""), (1j, "")]

@@ -11,7 +11,7 @@ from game.command_line import run
 from game.measure.moment import Moment
 from game.measure.setting import Setting
 from game.registry import Registry
-from game.run import proven_advice
+from game.run import advise, proven_advice
 from game.run.digest import scene_digest
 from game.run.proven_advice import Applied, advise_on_run, apply_to_run
 from game.run.recorded_run import SECOND, RecordedRun, busiest, changes_to, look_over, seconds_of_steps
@@ -23,7 +23,7 @@ from scenes import SCENES
 from tests.lockstep import make_scene
 
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of a whole game")
-SETTING = Setting("tree", True)
+SETTING, HERE = Setting("tree", True), Setting("brute", False)
 
 
 def recorded(name, steps):
@@ -121,6 +121,15 @@ def test_an_advice_that_the_whole_run_refutes_is_withdrawn(monkeypatch, factor, 
     assert all(each.mean == pytest.approx(factor) and each.holds == holds for each in proven.applied)
     assert (proven.advice.best == proven.advice.here) == (not holds)
     assert len(proven.applied) == 1 if holds else len(proven.applied) <= proven_advice.MOST_TRIED
+
+
+@pytest.mark.parametrize(
+    "mean, best, end",
+    ((0.5, SETTING, "holds"), (2.7, SETTING, "exact enough"), (2.7, None, "withdrawn"), (2.7, HERE, "withdrawn")),
+)
+def test_what_is_advised_is_not_called_withdrawn(mean, best, end):
+    applied = Applied(SETTING, 0.6, mean, (mean, mean), mean)
+    assert advise._tried(applied, HERE, best).endswith(end)
 
 
 @needs_speed
