@@ -83,23 +83,35 @@ def advise(
     within = settings_within(survey, error)
     if not within:
         return Advice(here, None, ()), survey
-    best = within[0]
-    if here in within and not is_cheaper(survey, best, here):
-        best = here
-    return Advice(here, best, tuple(within)), survey
+    sure = surely_cheaper(survey, within, here)
+    return Advice(here, sure[0] if sure else here, tuple(within)), survey
 
 
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
     """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
     Return None if no setting is certainly faster than the current one (`here`), or if `here` is the only setting within
-    the limit. Only settings with enough runs from every snapshot are compared.
+    the limit, or before boxes have reported enough hits in a scene with collision tiers.
     """
-    within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
-    if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
+    within = settings_within(survey, error)
+    if here not in survey.dots or survey.dots[here].cost is None or not survey.can_judge_tiers():
         return None
-    best = within[0]
-    return best if here not in within or is_cheaper(survey, best, here) else None
+    return next(iter(surely_cheaper(survey, within, here)), None)
+
+
+def surely_cheaper(survey: Survey, within: Sequence[Setting], here: Setting) -> list[Setting]:
+    """Return the settings that are certainly cheaper than `here`, cheapest first; all others if `here` is not `within`.
+
+    within: the settings within the limit of errors, cheapest first. Settings whose times cannot be told apart from that
+    of the cheapest one come first in a fixed order, so that repeated measurements give the same answer: the fewest
+    changes from `here`, then by name.
+    """
+    sure = [each for each in within if each != here and (here not in within or is_cheaper(survey, each, here))]
+    if not sure:
+        return []
+    tied = [each for each in sure if each == sure[0] or not is_cheaper(survey, sure[0], each)]
+    tied.sort(key=lambda each: (len(each.differs(here)), each.label(here)))
+    return tied + [each for each in sure if each not in tied]
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
@@ -166,11 +178,9 @@ def _together(survey, here, error):
     For each group, the fastest setting is found that is within the limit `error` and differs from `here` only in this
     group. Its values are used if it is certainly faster than `here`, or if `here` exceeds the limit.
     """
-    together = here
+    together, within = here, settings_within(survey, error)
     for part in PARTS:
-        alone = [
-            each for each in settings_within(survey, error) if set(each.differs(here)) <= set(part) and each != here
-        ]
-        if alone and (is_cheaper(survey, alone[0], here) or here not in settings_within(survey, error)):
+        alone = surely_cheaper(survey, [each for each in within if set(each.differs(here)) <= set(part)], here)
+        if alone:
             together = together._replace(**{name: getattr(alone[0], name) for name in part})
     return together

@@ -8,10 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from game.drawing.number_text import count_text
 from game.measure.errors import VISIBLE, Error, Verdicts, exact_tier
 from game.measure.pareto_front import TIE, cheaper, pareto_front
 from game.measure.setting import Setting
 from game.measure.timing import RUNS, Cost
+from game.measurement_requests import STEPS
 
 LEAST_HITS = 20  # hits that boxes must have reported before their rate of false hits is stated
 
@@ -23,6 +25,7 @@ class Dot:
     Runs start from several snapshots, which are numbered. spent: {number of a snapshot: seconds per step of each run}.
     errors: {number of a snapshot: {kind: Error}}.
 
+    Only finished snapshots count, which have at least RUNS runs. A snapshot that is being measured changes nothing.
     Values pooled over the snapshots are cached, because the plot reads each several times per frame.
     """
 
@@ -47,19 +50,19 @@ class Dot:
 
     @property
     def cost(self) -> Cost | None:
-        """Time per step [s], averaged over the snapshots from which runs started, as a Cost; None without runs."""
+        """Time per step [s], averaged over the finished snapshots, as a Cost; None if no snapshot is finished."""
         if "cost" not in self._known:
             self._known["cost"] = self._pooled_cost()
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """Return the Error of the kind `kind`, pooled over all snapshots from which runs started; None if unknown."""
+        """Return the Error of the kind `kind`, pooled over the finished snapshots; None if unknown."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
 
     def _pooled_cost(self):
-        costs = [Cost.of(runs, self.steps) for runs in self.spent.values() if runs]
+        costs = [Cost.of(self.spent[moment], self.steps) for moment in self.finished]
         if not costs:
             return None
         n = len(costs)
@@ -67,12 +70,13 @@ class Dot:
         return Cost(least, middle, upper, sum(cost.runs for cost in costs), self.steps)
 
     @property
-    def sure(self) -> bool:
-        """Whether the setting has at least RUNS runs from every snapshot from which it has started."""
-        return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
+    def finished(self) -> list[int]:
+        """The numbers of the snapshots from which the setting has at least RUNS runs."""
+        return [moment for moment, runs in self.spent.items() if len(runs) >= RUNS]
 
     def _pooled_error(self, kind):
-        found = [errors[kind] for errors in self.errors.values() if kind in errors]
+        found = [self.errors[moment] for moment in self.finished if kind in self.errors.get(moment, ())]
+        found = [errors[kind] for errors in found]
         if not found:
             return None
         failures = sum((Counter(each.failures) for each in found), Counter())
@@ -111,8 +115,8 @@ class Survey:
     def error(self, setting: Setting, kind: str) -> Error | None:
         """Return the Error of the kind `kind` of a measured setting; None if it is unknown.
 
-        An error in pixels is pooled over all snapshots from which runs started. So is an error in wrong answers, unless
-        the encounters of the whole recorded run are known. Then those are used instead.
+        An error in pixels is pooled over all finished snapshots. So is an error in wrong answers, unless the encounters
+        of the whole recorded run are known. Then those are used instead.
         """
         error = self.dots[setting].error(kind)
         verdicts = self.encounters.get(setting.tier or "") if setting.narrowphase else None
@@ -121,7 +125,10 @@ class Survey:
         return Error.of(verdicts, error.steps, error.failures)
 
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
-        """Return {setting: (Cost, Error)} of all settings that have a cost and an error of the kind `kind`."""
+        """Return {setting: (Cost, Error)} of all settings that have a cost and an error of the kind `kind`.
+
+        A setting has both once its first snapshot is finished.
+        """
         found = {}
         for setting, dot in self.dots.items():
             cost, error = dot.cost, self.error(setting, kind)
@@ -136,6 +143,16 @@ class Survey:
         """
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
+    def progress(self) -> str:
+        """Return a line of text on what is measured: the number of settings, or the number of runs before."""
+        finished = [len(dot.finished) for dot in self.dots.values()]
+        measured = sum(count > 0 for count in finished)
+        if measured < max(self.planned, 1):
+            runs = sum(min(len(runs), RUNS) for dot in self.dots.values() for runs in dot.spent.values())
+            return f"measuring, {runs} of {max(self.planned, len(self.dots)) * RUNS} runs"
+        moments = f"{count_text(max(finished), 'moment')} of {STEPS} steps"
+        return f"{count_text(measured, 'setting')} measured, {RUNS} runs each from {moments}"
+
     def finding(self, kind: str, here: Setting, proven: Setting | None = None) -> str:
         """Return one sentence that compares the setting `here` with the others by cost and by the error `kind`.
 
@@ -143,13 +160,12 @@ class Survey:
         overlap. proven: the cheaper setting that was tested on the whole recorded run, None for none. Only this setting
         is reported as cheaper.
         """
-        known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
+        known = self.known(kind)
         if here not in known or len(known) < 2:
             return ""
+        if kind == "verdict" and self.hits_seen() < LEAST_HITS:
+            return f"no finding yet: {self.hits_seen()} of {LEAST_HITS} hits seen"
         cost, error = known[here]
-        hits = max((e.verdicts.either.total for _, e in known.values() if e.verdicts is not None), default=LEAST_HITS)
-        if hits < LEAST_HITS:
-            return f"no finding yet: {hits} of {LEAST_HITS} hits seen"
         least, most = error.interval
         sound = {s: (c, e) for s, (c, e) in known.items() if is_sound(e)}
         as_good = {s: c for s, (c, e) in sound.items() if e.interval[1] <= (1.0 + TIE) * most}
@@ -168,7 +184,29 @@ class Survey:
             best = min(exacter, key=lambda s: exacter[s][0].median)
             price = exacter[best][0].median / cost.median
             return f"here {shown(error)}; {best.label(here)} has {shown(known[best][1])} for {price:.2f} x the time"
-        return f"nothing measured here is as exact ({shown(error)}) for less time"
+        return f"nothing as exact ({shown(error)}) is cheaper by more than the noise"
+
+    def hits_seen(self) -> int:
+        """Return the number of encounters from which rates of wrong answers are known.
+
+        In a scene with collision tiers, these are the hits that boxes reported, at the moments or in the whole recorded
+        run. Otherwise it is the greatest number that one setting has.
+        """
+        if "aabb" in self.encounters:
+            return self.encounters["aabb"].wrong.total
+        verdicts = {s: e.verdicts for s, (_, e) in self.known("verdict").items() if e.verdicts is not None}
+        if self.has_tiers:
+            return max((each.wrong.total for s, each in verdicts.items() if s.tier == "aabb"), default=0)
+        return max((each.either.total for each in verdicts.values()), default=LEAST_HITS)
+
+    @property
+    def has_tiers(self) -> bool:
+        """Whether collision tiers are measured."""
+        return bool(self.dots) and self.first.tier is not None
+
+    def can_judge_tiers(self) -> bool:
+        """Return whether LEAST_HITS hits were seen, which judging collision tiers needs. True without tiers."""
+        return not self.has_tiers or self.hits_seen() >= LEAST_HITS
 
     def boxes_and_pixels(self) -> str:
         """Return a sentence on the rate of false hits of boxes, and on the time that pixels cost.
@@ -183,9 +221,8 @@ class Survey:
             return ""
         (cost, error), (exact, _) = known[boxes], known[pixels]
         wrong = error.wrong
-        if wrong is None or wrong.total < LEAST_HITS or not (self.dots[boxes].sure and self.dots[pixels].sure):
-            hits = 0 if wrong is None else wrong.total
-            return f"Boxes and pixels: measuring, {min(hits, LEAST_HITS)} of {LEAST_HITS} hits by boxes."
+        if wrong is None or not self.can_judge_tiers():
+            return f"Boxes and pixels: measuring, {self.hits_seen()} of {LEAST_HITS} hits by boxes."
         low, high = (round(100 * each) for each in wrong.interval)
         apart = cheaper(cost[:2], exact[:2]) or cheaper(exact[:2], cost[:2])
         price = f"{exact.median / cost.median:.2f} x the time" if apart else "the same time"

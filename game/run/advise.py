@@ -13,14 +13,14 @@ from game.files.data_folder import write_atomically
 from game.measure.errors import VISIBLE
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
-from game.measure.survey import shown
+from game.measure.survey import LEAST_HITS, shown
 from game.measure.survey_csv import csv_of
 from game.measure.timing import RUNS
 from game.registry import Registry
 from game.run.headless import save_or_fail, start_dummy_display
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
-from game.run.proven_advice import APPLIED_RUNS, Applied, Proven, advise_on_run
-from game.run.recorded_run import SECOND, RecordedRun
+from game.run.proven_advice import APPLIED_RUNS, LEAST_STEPS, Applied, Proven, advise_on_run
+from game.run.recorded_run import RecordedRun
 from game.run.replay import Recorder
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -32,12 +32,12 @@ EVERY = 2.0  # [s] between two lines of progress
 def run_advice(options: Options, registry: Registry) -> int:
     """Measure the settings of a scene, and print the advice.
 
-    Return the exit code: 1 if no setting is within the allowed error, otherwise 0. Raises UsageError for a run that is
-    shorter than SECOND steps.
+    Return the exit code: 0, or 1 if nothing is advised, because no setting is within the allowed error or the run has
+    too few hits. Raises UsageError for a run that is shorter than LEAST_STEPS.
     """
     frames = options.frames or DEFAULT_FRAMES
-    if frames < SECOND:
-        raise UsageError(f"--frames {frames}: too short a run to advise on; valid: {SECOND} or more")
+    if frames < LEAST_STEPS:
+        raise UsageError(f"--frames {frames}: too short a run to advise on; valid: {LEAST_STEPS} or more")
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
@@ -96,6 +96,8 @@ def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
         *_encounters(overview),
         _line("now", here, here, survey),
     ]
+    if not survey.can_judge_tiers():
+        return [*lines, f"no advice: {survey.hits_seen()} of {LEAST_HITS} hits seen; a longer run (--frames) has more"]
     if best is None:
         lines += [_tried(each, here, best) for each in tried]
         return [*lines, f"nothing with which the scene can play is within {limit}"]
@@ -113,8 +115,10 @@ def _encounters(overview):
     boxes = overview.encounters.get("aabb")
     if boxes is None:
         return []
-    low, high = (round(100 * each) for each in boxes.wrong.interval)
     wrong = boxes.wrong
+    if wrong.total < LEAST_HITS:
+        return []  # too few for a rate
+    low, high = (round(100 * each) for each in wrong.interval)
     return [f"boxes over the run: {wrong.count} of {wrong.total} hits are false ({low} to {high} of 100)"]
 
 

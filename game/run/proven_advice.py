@@ -9,14 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from game.measure.advice import Advice, Report, advise, is_cheaper, settings_within, share
+from game.measure.advice import Advice, Report, advise, settings_within, share, surely_cheaper
 from game.measure.pareto_front import TIE
 from game.measure.setting import Setting
 from game.measure.survey import Survey
-from game.run.recorded_run import Overview, RecordedRun, changes_to, look_over, seconds_of_steps
+from game.measurement_requests import STEPS
+from game.run.recorded_run import STRATA, Overview, RecordedRun, changes_to, look_over, seconds_of_steps
 
 APPLIED_RUNS = 3  # repetitions of a whole run with each of two settings
 WARM_STEPS = 60  # of each setting, before the first repetition
+LEAST_STEPS = (STRATA + 1) * STEPS  # of a run: room for the moments of its parts, and for its busiest second
 MOST_TRIED = 3  # settings tried on the whole run, if the first ones do not hold
 
 
@@ -44,6 +46,13 @@ class Applied(NamedTuple):
         """
         return not self.refused and self.interval[1] < 1.0 - TIE and self.p99 < 1.0 + TIE
 
+    def is_advisable(self, here_is_within: bool) -> bool:
+        """Return whether the setting is advised. here_is_within: whether the current setting is within the limit.
+
+        If it is not, a setting that the scene can play with is advised for its exactness, whatever its time.
+        """
+        return self.holds if here_is_within else not self.refused
+
 
 class Proven(NamedTuple):
     """Advice that was tested on a whole run, with the measurements that it is based on."""
@@ -58,20 +67,24 @@ def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, 
     """Measure the settings of a recorded run, and return advice that was tested on the whole run.
 
     error: largest error of an advised setting, as in advise(); report, seed: as in measure_settings(). If the whole run
-    shows no gain from the advised setting, the next best setting is tested. Raises ValueError for a run without steps.
+    shows no gain from the advised setting, the next best setting is tested. If the run has too few hits by boxes to
+    judge collision tiers (Survey.can_judge_tiers), nothing is tried, and no setting is advised.
+
+    Raises ValueError for a run that is shorter than LEAST_STEPS.
     """
+    if run.steps < LEAST_STEPS:
+        raise ValueError(f"a run to advise on must have {LEAST_STEPS} steps or more (got {run.steps})")
     overview = look_over(run)
     advice, survey = advise(overview.moments, error, report, seed)
     here, tried = advice.here, []
     survey.encounters = overview.encounters
     within = settings_within(survey, error)
-    if not within:
-        return Proven(Advice(here, None, ()), (), survey, overview)
-    sure = [each for each in within if each != here and (here not in within or is_cheaper(survey, each, here))]
+    if not within or not survey.can_judge_tiers():
+        return Proven(Advice(here, None, tuple(within)), (), survey, overview)
     best = here if here in within else None
-    for setting in sure[:MOST_TRIED]:
+    for setting in surely_cheaper(survey, within, here)[:MOST_TRIED]:
         tried.append(apply_to_run(run, setting, share(survey, setting, here)))
-        if tried[-1].holds or (here not in within and not tried[-1].refused):
+        if tried[-1].is_advisable(here in within):
             best = setting
             break
     return Proven(Advice(here, best, tuple(within)), tuple(tried), survey, overview)

@@ -11,6 +11,7 @@ from game.drawing.canvas import small_font, wrap
 from game.drawing.colors import DUSK, FOG, GREEN, PAPER, SKY
 from game.drawing.presenter import Frame
 from game.measure.setting import Setting
+from game.measure.survey import LEAST_HITS
 from game.screens.parts.measuring import Measuring
 
 TAKE, TUNE = pygame.K_PAGEUP, pygame.K_PAGEDOWN
@@ -77,8 +78,12 @@ class AdviceRows:
     def _advice(self):
         survey, here, advice = self.tuner.survey, self.measuring.now(), self.measuring.advice
         if advice is None:
-            known = here in survey.dots and survey.dots[here].sure
-            return "leave it: nothing is surely cheaper" if known else "advice: not enough runs yet"
+            known = here in survey.dots and survey.dots[here].cost is not None
+            if not known:
+                return "advice: measuring"
+            if not survey.can_judge_tiers():
+                return f"advice: {survey.hits_seen()} of {LEAST_HITS} hits seen"
+            return "leave it: nothing is surely cheaper"
         best, proof = advice
         if proof is None:
             return f"trying it on the run so far: {best.label(here)}"

@@ -21,14 +21,12 @@ from game.drawing.colors import (
     Color,
     faded,
 )
-from game.drawing.number_text import count_text
 from game.drawing.plot import Axis, LogPlot, number
 from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
-from game.measure.moment import STEPS
 from game.measure.setting import Setting
 from game.measure.survey import own_sentence, reported_error, shown
-from game.measure.timing import RUNS, Cost
+from game.measure.timing import Cost
 from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.switches import following
@@ -193,7 +191,7 @@ class CostPanel:
             plot = pygame.Rect(left, y, width, max(LEAST * scale, high))
             self._draw_plot(frame, plot, known, now, scale)
             y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
-            y = self._draw_finding(frame, left, y, width, now, scale)
+            y = self._draw_finding(frame, left, y, width, scale)
             y = self.advice.draw(frame, left, y, width, scale)
             self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - (line + 3) * scale - y), known, now, scale)
         foot = next((each for each in FEET if frame.measure(each, font, scale)[0] <= width), FEET[-1])
@@ -204,10 +202,9 @@ class CostPanel:
         frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
         y += 10 * scale
         kind = self.shown_kind()
-        if kind == "verdict" and (sentence := self.survey.boxes_and_pixels()):
-            y = self._draw_sentence(frame, left, y, width, sentence, scale)
-            if own := own_sentence(self.measuring.scene.own_hits, self.measuring.scene.tier):
-                y = self._draw_sentence(frame, left, y, width, own, scale)
+        y = self._draw_sentence(frame, left, y, width, self._opening(), scale)
+        if kind == "verdict" and (own := own_sentence(self.measuring.scene.own_hits, self.measuring.scene.tier)):
+            y = self._draw_sentence(frame, left, y, width, own, scale)
         lines = wrap(self._state(), width, font, scale)
         if kind:
             more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
@@ -228,14 +225,9 @@ class CostPanel:
         return y + 2 * scale
 
     def _state(self):
-        survey = self.survey
         if self.surveyor.trouble:
             return self.surveyor.trouble
-        if not survey.dots:
-            return "taking this moment of the game ..."
-        sure = sum(dot.sure for dot in survey.dots.values())
-        moments = f"{count_text(survey.moments, 'moment')} of {STEPS} steps"
-        return f"{sure} of {max(survey.planned, len(survey.dots))} settings measured, {RUNS} runs each, {moments}"
+        return self.survey.progress() if self.survey.dots else "taking this moment of the game ..."
 
     def _draw_plot(self, frame, rect, known, now, scale):
         x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)])
@@ -315,11 +307,22 @@ class CostPanel:
             x += wide
         return y + (line + 3) * scale
 
-    def _draw_finding(self, frame, left, y, width, now, scale):
+    def _opening(self):
+        """Return the first sentence of the panel: on boxes and pixels in a scene with both, otherwise the finding."""
+        boxes = self.survey.boxes_and_pixels() if self.shown_kind() == "verdict" else ""
+        return boxes or self._finding() or "Measuring: the answer comes in a few seconds."
+
+    def _finding(self):
         advice = self.measuring.advice
         proven = advice[0] if advice is not None and isinstance(advice[1], float) else None
-        finding = self.survey.finding(self.shown_kind(), now, proven)
-        return self._draw_sentence(frame, left, y, width, finding or "the finding comes when enough is measured", scale)
+        return self.survey.finding(self.shown_kind(), self.now(), proven)
+
+    def _draw_finding(self, frame, left, y, width, scale):
+        """Draw the finding, unless the panel opens with it. Return the y below it."""
+        finding = self._finding()
+        if not finding or finding == self._opening() or not self.survey.can_judge_tiers():
+            return y
+        return self._draw_sentence(frame, left, y, width, finding, scale)
 
     def _draw_list(self, frame, rect, known, now, scale):
         """Draw the list of settings, cheapest first. A line below it gives the numbers of settings that do not fit.

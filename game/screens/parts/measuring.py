@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from game.files.data_folder import free_name, measurements_folder, short_path, write_atomically
 from game.input.devices import DeviceSource
-from game.measure.advice import advised, share
+from game.measure.advice import advised, settings_within, share
+from game.measure.errors import VISIBLE
 from game.measure.moment import here_of
 from game.measure.setting import Setting, settings_around
 from game.measure.survey_csv import csv_of
@@ -15,8 +16,8 @@ from game.measure.tuner import Tuner
 from game.measurement_requests import RunRequest, SpriteRequest
 from game.run import run_worker
 from game.run.figures_csv import command_of, figures_csv
-from game.run.proven_advice import Applied
-from game.run.recorded_run import SECOND, RecordedRun, changes_to
+from game.run.proven_advice import LEAST_STEPS, Applied
+from game.run.recorded_run import RecordedRun, changes_to
 from game.run.replay import Recorder
 from game.run.warmup import pieces_of
 from game.scene import Scene
@@ -167,8 +168,8 @@ class Measuring:
         again once the run is twice as long.
         """
         recorder, surveyor = self.recorder(), self.surveyor
-        if recorder is None or recorder.frames < SECOND:
-            return f"a recorded run of {SECOND} steps or more is needed to try it on"
+        if recorder is None or recorder.frames < LEAST_STEPS:
+            return f"a recorded run of {LEAST_STEPS} steps or more is needed to try it on"
         here, asked = self.now(), self.asked
         known = asked is not None and asked[:2] == (here, setting) and recorder.frames < 2 * asked.steps
         if asked is None or not known:
@@ -180,7 +181,7 @@ class Measuring:
         if asked.number >= len(surveyor.proofs):
             return None
         applied = Applied.from_json(surveyor.proofs[asked.number])
-        if applied.holds:
+        if applied.is_advisable(here in settings_within(surveyor.survey, VISIBLE)):
             return applied.mean
         return applied.refused or f"predicted {applied.predicted:.2f}, measured {applied.mean:.2f}: withdrawn"
 

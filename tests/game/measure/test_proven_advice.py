@@ -162,6 +162,9 @@ def _first(recorded_run, steps):
     return tuple(found)
 
 
-def test_a_run_too_short_to_advise_on_says_so(capsys):
-    assert run(["--advise", "lab/sensors", "--frames", "30"], Registry(SCENES)) == 2
-    assert "--frames 30: too short a run to advise on; valid: 60 or more" in capsys.readouterr().err
+@pytest.mark.parametrize("scene", ["lab/sensors", "shooter"])
+@pytest.mark.parametrize("frames", [1, 30, 60, 299])
+def test_a_run_too_short_to_advise_on_says_so(capsys, scene, frames):
+    assert run(["--advise", scene, "--frames", f"{frames}"], Registry(SCENES)) == 2
+    said = capsys.readouterr()
+    assert f"--frames {frames}: too short a run to advise on; valid: 300 or more" in said.err and not said.out

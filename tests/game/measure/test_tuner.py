@@ -130,14 +130,46 @@ def test_the_tuner_goes_on_with_the_panel_closed_and_ends_with_the_scene(play):
 
 def test_what_is_read_of_a_dot_follows_what_is_reported_of_it(survey):
     """Cost and error of a dot are computed once, and again after every new run or error."""
-    put(survey, TREE, 1e-3, 0.5, runs=1)
+    put(survey, TREE, 1e-3, 0.5, spread=0.0)
     dot, kind = survey.dot(TREE), survey.kinds[0]
     before = dot.cost, dot.error(kind)
     assert dot.cost is before[0] and dot.error(kind) is before[1]
-    dot.took(2, 3e-3)
-    assert before[0].median == pytest.approx(1e-3 / 1) and dot.cost.median == pytest.approx(2e-3)
     dot.erred(2, {kind: Error(1.5, 0.0, 60)})
+    for _ in range(RUNS):
+        assert dot.cost.median == pytest.approx(1e-3) and dot.error(kind).value == 0.5, "the second is not finished"
+        dot.took(2, 3e-3)
+    assert before[0].median == pytest.approx(1e-3) and dot.cost.median == pytest.approx(2e-3)
     assert dot.error(kind).value == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("moments", [1, 2, 3])
+@pytest.mark.parametrize("settings", [2, 5])
+def test_nothing_that_was_known_is_unknown_again_while_a_moment_is_measured(moments, settings):
+    survey = Survey()
+    survey.kinds, survey.planned = ("way",), settings
+    names = [HERE, TREE, SWEEP, BRUTE, HERE._replace(narrowphase=False)][:settings]
+    known = []
+    for moment in range(1, moments + 1):
+        for setting in names:
+            survey.dot(setting).steps = 60
+            survey.dot(setting).erred(moment, {"way": Error(0.0, 0.0, 60)})
+        for _ in range(RUNS):
+            for setting in names:
+                survey.dot(setting).took(moment, 1.0)
+                known.append(len(survey.known("way")))
+                expected = "measuring, " if known[-1] < settings else f"{settings} settings measured, {RUNS} runs each"
+                assert survey.progress().startswith(expected)
+    assert known == sorted(known) and known[: settings * (RUNS - 1)] == [0] * (settings * (RUNS - 1))
+    assert known[settings * RUNS - 1 :] == [settings] * (settings * RUNS * (moments - 1) + 1)
+
+
+def test_settings_that_cannot_be_told_apart_are_advised_in_a_fixed_order(survey):
+    both = TREE._replace(narrowphase=False)
+    for times in ((0.500, 0.505, 0.51), (0.51, 0.505, 0.500), (0.505, 0.500, 0.51)):
+        for setting, seconds in zip((both, BRUTE, TREE), times, strict=True):
+            survey.dots.pop(setting, None)
+            put(survey, setting, seconds)
+        assert advised(survey, HERE) == BRUTE, "one change, and the first by name"
 
 
 @pytest.mark.parametrize("proof, said", ((None, "trying it on the run"), ("measured 1.20", "leave it")))

@@ -105,7 +105,7 @@ def test_no_finding_on_tiers_is_said_before_there_are_enough_hits(hits):
     if hits < LEAST_HITS:
         assert found == f"no finding yet: {hits} of {LEAST_HITS} hits seen"
     else:
-        assert found == f"nothing measured here is as exact (0 of {hits} wrong) for less time"
+        assert found == f"nothing as exact (0 of {hits} wrong) is cheaper by more than the noise"
     assert shown(exact) == (f"0 of {hits} wrong" if hits else "no hit yet")
 
 
