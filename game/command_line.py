@@ -174,7 +174,7 @@ def _check_advice(options):
         raise UsageError(f"--error must be more than 0 px, and finite (got {options.error})")
     if options.advise is None:
         return
-    others = [flag for flag in ("scene", "record", "replay", "screenshot", "profile") if getattr(options, flag)]
+    others = [flag for flag in ("scene", "record", "screenshot", "profile") if getattr(options, flag)]
     if others:
         raise UsageError(f"--advise brings its own scene and run: leave out --{others[0]}")
     options.scene = options.advise

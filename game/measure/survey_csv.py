@@ -9,7 +9,6 @@ import json
 
 from game.measure.machine import machine_line
 from game.measure.survey import Survey
-from game.startup import start_line
 
 COLUMNS = (
     "scene, broadphase, narrowphase, solver, substeps, tier, joint_solver, moments, runs, us_least, us_median, "
@@ -18,17 +17,16 @@ COLUMNS = (
 ).split(", ")
 
 
-def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
+def csv_of(survey: Survey, scene: str, command: str) -> str:
     """Return the survey as the text of a CSV file.
 
-    scene, seed, steps: name of the measured scene, its seed and its number of steps, for the column `command`. Times
-    are in microseconds per step. Errors are in pixels, or for tiers in wrong answers per 100 encounters. A number that
-    does not apply is an empty field.
+    scene: name of the measured scene; command: command that repeats the measurement. Times are in microseconds per
+    step. Errors are in pixels, or for tiers in wrong answers per 100 encounters. A number that does not apply is an
+    empty field.
     """
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
-    command = start_line("--advise", scene, "--seed", str(seed), "--frames", str(max(60, steps)), "--json")
     system = machine_line()
     for kind in survey.kinds:
         for setting, (cost, error) in survey.known(kind).items():

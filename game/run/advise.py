@@ -1,7 +1,7 @@
 """`--advise SCENE`: advise on the settings of a scene.
 
-The bot plays the scene. Each setting is then measured at several moments of the recorded run. The recommended setting
-is printed after it was confirmed on the whole run.
+The bot plays the scene, or a recording is played (--replay). Each setting is then measured at several moments of the
+run. The recommended setting is printed after it was confirmed on the whole run.
 """
 
 import json
@@ -25,6 +25,7 @@ from game.run.replay import Recorder
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
+from game.startup import start_line
 
 EVERY = 2.0  # [s] between two lines of progress
 
@@ -35,16 +36,19 @@ def run_advice(options: Options, registry: Registry) -> int:
     Return the exit code: 0, or 1 if nothing is advised, because no setting is within the allowed error or the run has
     too few hits. Raises UsageError for a run that is shorter than LEAST_STEPS.
     """
-    frames = options.frames or DEFAULT_FRAMES
+    frames = frames_of(options)
     if frames < LEAST_STEPS:
-        raise UsageError(f"--frames {frames}: too short a run to advise on; valid: {LEAST_STEPS} or more")
+        named = f"--frames {frames}" if options.frames or not options.replay else f"--replay, {frames} steps"
+        raise UsageError(f"{named}: too short a run to advise on; valid: {LEAST_STEPS} or more")
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
     run = recorded_run(options, registry, frames)
     proven = advise_on_run(run, error, Progress(), options.seed or 0)
     if options.csv:
-        text = csv_of(proven.survey, options.scene or "", options.seed or 0, frames)
+        of = ("--replay", options.replay) if options.replay else ("--seed", f"{options.seed or 0}")
+        command = start_line("--advise", options.scene or "", *of, "--frames", f"{frames}", "--json")
+        text = csv_of(proven.survey, options.scene or "", command)
         save_or_fail(lambda path: write_atomically(path, text, makes_folder=False), options.csv)
     if options.json:
         print(json.dumps(as_json(options, error, proven)))
@@ -53,10 +57,20 @@ def run_advice(options: Options, registry: Registry) -> int:
     return 0 if proven.advice.best is not None else 1
 
 
+def frames_of(options: Options) -> int:
+    """Return the number of steps of the run: --frames, but no more than a recording has."""
+    if options.recording is None:
+        return options.frames or DEFAULT_FRAMES
+    return min(options.frames or options.recording.frames, options.recording.frames)
+
+
 def recorded_run(options: Options, registry: Registry, frames: int) -> RecordedRun:
-    """Let the bot play the scene for `frames` steps, and return the recording."""
+    """Return the first `frames` steps of the recording of --replay, or let the bot play that many steps."""
     scene = make_scene(options, registry)
     recorder = Recorder(scene, bot=True, every=frames)
+    if options.recording is not None:
+        inputs = tuple((1, frame) for frame in options.recording.inputs[:frames])
+        return RecordedRun.of(scene, recorder)._replace(inputs=inputs)
     session = Session(scene, BotSource(), recorder)
     for _ in range(frames):
         session.step()
@@ -88,10 +102,10 @@ def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
     advice, tried, survey, overview = proven
     here, best = advice.here, advice.best
     limit = f"{error:g} wrong of 100 hits" if survey.kinds == ("verdict",) else f"{error:g} px"
-    steps = options.frames or DEFAULT_FRAMES
+    whose = "the recorded" if options.recording is not None else "the bot's"
     lines = [
-        f"{options.scene}: the bot's run of {steps} steps; {len(survey.dots)} settings at {survey.moments} moments of "
-        f"{STEPS} steps, {RUNS} runs each",
+        f"{options.scene}: {whose} run of {frames_of(options)} steps; {len(survey.dots)} settings at {survey.moments} "
+        f"moments of {STEPS} steps, {RUNS} runs each",
         f"moments from steps {', '.join(map(str, overview.at))}; the busiest second begins at {overview.busiest}",
         *_encounters(overview),
         _line("now", here, here, survey),
@@ -145,7 +159,7 @@ def as_json(options: Options, error: float, proven: Proven) -> dict:
     applied = tried[-1] if tried and best != here else None
     return {
         "looked_at": {
-            "steps": options.frames or DEFAULT_FRAMES,
+            "steps": frames_of(options),
             "moments": overview.at,
             "busiest_second_from": overview.busiest,
             "encounters": {

@@ -26,7 +26,7 @@ from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
 from game.measure.setting import Setting
 from game.measure.survey import own_sentence, reported_error, shown
-from game.measure.timing import Cost
+from game.measure.timing import RUNS, Cost
 from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.switches import following
@@ -194,6 +194,8 @@ class CostPanel:
             y = self._draw_finding(frame, left, y, width, scale)
             y = self.advice.draw(frame, left, y, width, scale)
             self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - (line + 3) * scale - y), known, now, scale)
+        else:
+            self._draw_runs(frame, pygame.Rect(left, y, width, rect.bottom - (line + 3) * scale - y), now, scale)
         foot = next((each for each in FEET if frame.measure(each, font, scale)[0] <= width), FEET[-1])
         frame.text(foot, left, rect.bottom - (line + 1) * scale, FOG, font, scale)
 
@@ -323,6 +325,23 @@ class CostPanel:
         if not finding or finding == self._opening() or not self.survey.can_judge_tiers():
             return y
         return self._draw_sentence(frame, left, y, width, finding, scale)
+
+    def _draw_runs(self, frame, rect, now, scale):
+        """Draw how many runs of each setting are done, while no setting has enough of them for a number."""
+        base = self.surveyor.here or now
+        font, line = small_font(scale)
+        high = (line + 1) * scale
+        for place, (setting, dot) in enumerate(self.survey.dots.items()):
+            top = rect.y + place * high
+            if top + high > rect.bottom:
+                break
+            color, form = look_of(setting, base)
+            draw_form(frame.surface, form, (rect.x + 3 * scale, top + 3 * scale), 2 * scale, frame.tone(color), True)
+            done = min(sum(map(len, dot.spent.values())), RUNS)
+            text = f"{done} of {RUNS} runs"
+            right = frame.text(text, rect.right - 2 * scale, top + scale, FOG, font, scale, "right").left
+            name = shorten(setting.label(base), right - rect.x - 12 * scale, font, scale)
+            frame.text(name, rect.x + 8 * scale, top + scale, FOG, font, scale)
 
     def _draw_list(self, frame, rect, known, now, scale):
         """Draw the list of settings, cheapest first. A line below it gives the numbers of settings that do not fit.

@@ -62,7 +62,8 @@ class HintCard:
         for key, what in PARTS:
             left = frame.text(key, left, top, GOLD, TEXT, scale).right + 4 * scale
             left = frame.text(what, left, top, PAPER, TEXT, scale).right + GAP * scale
-        frame.text(FOOT, left, top + 2 * scale, FOG, SMALL, scale)
+        if self.drawn > READ:
+            frame.text(FOOT, left, top + 2 * scale, FOG, SMALL, scale)
         frame.reserve(self.rect)
 
     def _width(self, frame, scale):

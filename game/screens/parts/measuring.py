@@ -23,6 +23,7 @@ from game.run.warmup import pieces_of
 from game.scene import Scene
 from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
+from game.startup import start_line
 from physics import World
 
 NO_RACE = "no race: nothing can be switched here"
@@ -268,23 +269,31 @@ class Measuring:
 
         Return a line of text with the path. Raises OSError.
         """
-        path, recorder = free_name(measurements_folder(), self.scene.name, ".csv"), self.recorder()
-        replay = None
-        if recorder is not None and recorder.frames:
-            replay = path.with_suffix(".json")
-            recorder.save(replay)
+        path, replay = self._places()
         write_atomically(path, figures_csv(self.scene, command_of(self.scene, replay and str(replay))))
         return f"saved as {short_path(path)}"
 
     def save_csv(self) -> str:
-        """Save the survey as a CSV file in the user's folder. Return a line of text with its path. Raises OSError."""
-        survey, scene, recorder = self.surveyor.survey, self.scene, self.recorder()
+        """Save the survey as a CSV file in the user's folder, and the recorded run in the same folder.
+
+        Return a line of text with the path. Raises OSError.
+        """
+        survey, scene = self.surveyor.survey, self.scene
         if not survey.dots:
             return "nothing is measured yet"
-        path = free_name(measurements_folder(), scene.name, ".csv")
-        steps = scene.frame if recorder is None else recorder.frames
-        write_atomically(path, csv_of(survey, scene.name, scene.seed, steps))
+        path, replay = self._places()
+        of = ("--seed", f"{scene.seed}", "--frames", f"{scene.frame}") if replay is None else ("--replay", str(replay))
+        write_atomically(path, csv_of(survey, scene.name, start_line("--advise", scene.name, *of, "--json")))
         return f"saved as {short_path(path)}"
+
+    def _places(self):
+        """Save the recorded run, if any. Return (free path of a CSV file beside it, path of the recording or None)."""
+        path, recorder = free_name(measurements_folder(), self.scene.name, ".csv"), self.recorder()
+        if recorder is None or not recorder.frames:
+            return path, None
+        replay = path.with_suffix(".json")
+        recorder.save(replay)
+        return path, replay
 
     def rivals(self) -> list[Setting]:
         """Return the settings that the scene can be raced against.

@@ -1,5 +1,6 @@
 """Advice is checked by playing the whole run again under the scene's rules; wrong advice is withdrawn."""
 
+import csv
 import json
 from itertools import pairwise
 
@@ -168,3 +169,18 @@ def test_a_run_too_short_to_advise_on_says_so(capsys, scene, frames):
     assert run(["--advise", scene, "--frames", f"{frames}"], Registry(SCENES)) == 2
     said = capsys.readouterr()
     assert f"--frames {frames}: too short a run to advise on; valid: 300 or more" in said.err and not said.out
+
+
+@needs_speed
+@pytest.mark.parametrize("steps", [300, 420])
+def test_a_recorded_run_is_advised_on_by_the_command_of_its_csv_file(steps, tmp_path, capsys):
+    _, recorder = recorded("lab/sensors", steps)
+    recording, table = tmp_path / "run.json", tmp_path / "survey.csv"
+    recorder.save(recording)
+    given = ["--advise", "lab/sensors", "--replay", str(recording)]
+    assert run([*given, "--csv", str(table)], Registry(SCENES)) == 0
+    assert f"the recorded run of {steps} steps" in capsys.readouterr().out
+    rows = list(csv.DictReader(table.open()))
+    assert rows and all(f"--replay {recording} --frames {steps}" in row["command"] for row in rows)
+    assert run([*given, "--frames", "200"], Registry(SCENES)) == 2
+    assert "--frames 200: too short a run" in capsys.readouterr().err
