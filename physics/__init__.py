@@ -13,6 +13,7 @@ from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character, Moved
 from physics.effects import Effects
+from physics.hints import explaining_missing_names
 from physics.jit import JIT
 from physics.joint import Joint
 from physics.joints.kinds import (
@@ -54,3 +55,6 @@ __all__ = [
     "SweepAndPrune", "TIERS", "Target", "TileGrid", "TimeOfImpact", "Vec2", "Weld", "Wheel", "World", "collide",
     "compile_in_background", "decompose", "distance", "fit", "hull", "mass_of", "measure", "time_of_impact", "warmup",
 ]  # fmt: skip
+
+# A function of this name in the source would make type checkers accept every name.
+globals()["__getattr__"] = explaining_missing_names(__name__, __all__)

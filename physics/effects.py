@@ -190,6 +190,6 @@ def _check_no_effects(preset, given):
 def checked_effects(value: Any) -> Effects:
     """Return `value` unchanged if it is an Effects. Raises TypeError for anything else."""
     if not isinstance(value, Effects):
-        hint = hints.in_place_of_effects(value, Effects.__dataclass_fields__)
+        hint = hints.in_place_of_effects(value, Effects.__dataclass_fields__, NEEDS)
         raise TypeError(f"effects must be an Effects (got {checks.shown(value)}){hint}")
     return value

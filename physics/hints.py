@@ -316,11 +316,55 @@ def brief(value: Any) -> str:
 def near(word: str, allowed: Iterable[str]) -> str:
     """Return the word in `allowed` that is most similar to `word`, or "" if none is similar enough.
 
-    Case, "_", "-" and spaces are ignored.
+    A word is also similar if it alone begins with `word`. Case, "_", "-" and spaces are ignored.
     """
     plain = {each.lower().replace("_", ""): each for each in allowed}
-    found = difflib.get_close_matches(word.lower().translate(str.maketrans("", "", "_- ")), plain, 1, NEAR_NAME)
-    return plain[found[0]] if found else ""
+    word = word.lower().translate(str.maketrans("", "", "_- "))
+    found = difflib.get_close_matches(word, plain, 1, NEAR_NAME)
+    if not found and len(word) > 2:
+        found = [each for each in plain if each.startswith(word)]
+    return plain[found[0]] if len(found) == 1 else ""
+
+
+# Words for shapes that are not names of tiers -> the tier.
+SHAPE_WORDS = {"box": "aabb", "boxes": "aabb", "rect": "aabb", "bounds": "aabb", "pixel": "pixels", "sprite": "pixels"}
+# Names of classes in other engines -> what to write.
+CLASSES = {
+    "Space": "World", "b2World": "World", "Scene": "World", "Simulation": "World",
+    "Box": "Polygon.box(width, height)", "Rect": "Polygon.box(width, height)",
+    "Rectangle": "Polygon.box(width, height)", "Square": "Polygon.box(width, height)",
+    "Poly": "Polygon(points)", "Ball": "Circle(radius)", "Line": "Segment(a, b)",
+    "Edge": "Segment(a, b)", "EdgeShape": "Segment(a, b)", "Mask": "PixelMask",
+    "ShapeFilter": "Filter", "PivotJoint": "Revolute", "HingeJoint": "Revolute",
+    "RevoluteJoint": "Revolute", "PinJoint": "Distance", "DistanceJoint": "Distance",
+    "SlideJoint": "Distance", "GrooveJoint": "Prismatic", "PrismaticJoint": "Prismatic",
+    "WheelJoint": "Wheel", "WeldJoint": "Weld", "GearJoint": "Gear",
+    "PulleyJoint": "Pulley", "RatchetJoint": "Ratchet", "MouseJoint": "Target",
+    "DampedSpring": "Distance(..., spring=Spring(hertz, damping))",
+    "DampedRotarySpring": "Angle(..., spring=Spring(hertz, damping))", "SimpleMotor": "Motor",
+    "Vec2d": "Vec2", "Vector2": "Vec2", "b2Vec2": "Vec2", "BB": "Bounds",
+    "AABB": "Bounds", "RigidBody": "world.add_body(shape, kind=\"dynamic\")",
+    "StaticBody": "world.add_body(shape, kind=\"static\")",
+    "KinematicBody": "world.add_body(shape, kind=\"kinematic\")",
+}  # fmt: skip
+
+
+def in_place_of_class(name: str, known: Iterable[str]) -> str:
+    """Return the hint for a name that the package does not have; "" if there is no hint. known: its public names."""
+    found = CLASSES.get(name, "")
+    if found:
+        return f": write {found}"
+    similar = near(name, known)
+    return f": did you mean {similar}?" if similar else ""
+
+
+def explaining_missing_names(module: str, known: Collection[str]) -> Callable[[str], Never]:
+    """Return the `__getattr__` of a module: it raises AttributeError with a hint. known: the module's public names."""
+
+    def missing(name: str) -> Never:
+        raise AttributeError(f"module {module} has no attribute {name}{in_place_of_class(name, known)}")
+
+    return missing
 
 
 # ---- keywords --------------------------------------------------------------------------------------------------------
@@ -616,8 +660,11 @@ def in_place_of_filter(value: Any) -> str:
 MOST_NAMES = 20  # names that a hint repeats
 
 
-def in_place_of_effects(value: Any, effects: Collection[str]) -> str:
-    """Return the hint for a wrong value that was passed instead of an Effects. effects: names of all effects."""
+def in_place_of_effects(value: Any, effects: Collection[str], needs: Mapping[str, Iterable[str]]) -> str:
+    """Return the hint for a wrong value that was passed instead of an Effects.
+
+    effects: names of all effects; needs: {effect: the effects that it needs}.
+    """
     if is_class(value, "Effects"):
         return ": write Effects()"
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
@@ -625,7 +672,9 @@ def in_place_of_effects(value: Any, effects: Collection[str]) -> str:
     given = (value,) if isinstance(value, str) else value
     names = [*given] if isinstance(given, (dict, list, tuple, set, frozenset)) else []
     if 0 < len(names) <= MOST_NAMES and all(isinstance(each, str) and each in effects for each in names):
-        on = [each for each in sorted(names) if not isinstance(value, dict) or value[each]]
+        named = {each for each in names if not isinstance(value, dict) or value[each]}
+        named |= {other for each in named for other in needs.get(each, ())}
+        on = [each for each in effects if each in named]
         return f": write Effects({', '.join(f'{each}=True' for each in on)})"
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"
 
@@ -723,7 +772,8 @@ def in_place_of_word(name: str, value: Any, allowed: Sequence[str]) -> str:
     The result is "" if there is no hint.
     """
     if isinstance(value, str):
-        found = near(value, allowed)
+        found = SHAPE_WORDS.get(value.lower(), "") if name == "tier" else ""
+        found = found if found in allowed else near(value, allowed)
         return f': did you mean "{found}"?' if found else ""
     if name == "kind" and is_number(value) and value in (0, 1, 2):
         word = KIND_WORDS[int(value)]

@@ -179,7 +179,7 @@ BROADPHASE = [
 ]
 EFFECTS = [
     ("gravity", "Effects(gravity=True)"),
-    (["gravity", "drag"], "Effects(drag=True, gravity=True)"),
+    (["gravity", "drag"], "Effects(gravity=True, drag=True)"),
     ({"drag": True, "wind": False}, "Effects(drag=True)"),
     (Effects, "Effects()"),
     (Effects.rigid_bodies, "Effects.rigid_bodies()"),
