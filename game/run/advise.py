@@ -101,7 +101,7 @@ def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
     """
     advice, tried, survey, overview = proven
     here, best = advice.here, advice.best
-    limit = f"{error:g} wrong of 100 hits" if survey.kinds == ("verdict",) else f"{error:g} px"
+    limit = f"{error:g} false and missed hits of 100" if survey.kinds == ("verdict",) else f"{error:g} px"
     whose = "the recorded" if options.recording is not None else "the bot's"
     lines = [
         f"{options.scene}: {whose} run of {frames_of(options)} steps; {len(survey.dots)} settings at {survey.moments} "

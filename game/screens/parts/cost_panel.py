@@ -32,7 +32,7 @@ from game.screens.parts.measuring import Measuring
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "wrong answers of 100 hits",
+    "verdict": "false and missed hits of 100 encounters",
     "overlap": "deepest overlap of bodies [px]",
     "way": "bodies astray from a reference run [px]",
     "joints": "widest joint gap [px]",
