@@ -554,7 +554,8 @@ def _in_place_of_shape(value, many):
     if all(is_own(each, "Shape") for each in value):
         return ": write the shapes one by one, or *shapes" if many else ": write one shape"
     if is_pair(value):
-        return f": write Polygon.box{brief(tuple(value))} for a size, position={brief(tuple(value))} for a place"
+        box = f", Polygon.box{brief(tuple(value))} for a size" if min(value) > 0 else ""
+        return f": write position={brief(tuple(value))} for a place{box}"
     if all(is_pair(each) or is_a(each, "pygame", "Vector2") for each in value):
         return ": write Segment(a, b)" if len(value) == 2 else ": write Polygon(points)"
     return ""

@@ -438,7 +438,9 @@ class SpatialHashGrid:
     incremental = True
 
     def __init__(self, cell: float | None = None) -> None:
-        self.cell = None if cell is None else checks.number("cell", cell, low=SMALLEST_CELL)
+        if cell is not None:
+            cell = checks.number("cell", checks.number("cell", cell, above=0.0), low=SMALLEST_CELL)
+        self.cell = cell
         self.base = self.cell or 0.0
         self.tuned_for = 0
         self.chains, self.near_entries = np.zeros((CHAINS, 3), np.int64), np.zeros(NEAR, np.int64)

@@ -165,7 +165,8 @@ MASKS = [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"
 ONE_SHAPE = [*SHAPE, ([BALL, BOX], "one shape")]
 SHAPES = [
     ([BALL, BOX], "*shapes"),
-    ((3, 4), "Polygon.box(3, 4) for a size, position=(3, 4)"),
+    ((3, 4), "position=(3, 4) for a place, Polygon.box(3, 4) for a size"),
+    ((0, 0), "write position=(0, 0) for a place"),
     ("static", "kind='static'"),
 ]
 JOINT = [(Revolute, "Revolute(…)"), (BODY, "Revolute(a, b, at)"), ("hinge", "")]
