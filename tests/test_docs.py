@@ -115,3 +115,12 @@ def test_each_path_is_a_list_of_functions(path):
 def test_a_name_that_is_not_there_is_found():
     assert "World.step" in names_in(ROOT / "physics/world.py")
     assert "World.stop" not in names_in(ROOT / "physics/world.py")
+
+
+def test_the_tests_that_hold_the_rules_of_measuring_exist():
+    rules = re.findall(r"^\| (\d+)\. .*\| (.*) \|$", (ROOT / "docs/measuring.md").read_text(encoding="utf-8"), re.M)
+    assert [int(number) for number, _ in rules] == list(range(1, 11))
+    sources = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").rglob("test_*.py"))
+    for _, named in rules:
+        names = re.findall(r"`(test_\w+)`", named)
+        assert names and all(f"def {name}(" in sources for name in names), named
