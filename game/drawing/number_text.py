@@ -33,3 +33,16 @@ def count_text(number: int, what: str) -> str:
     what: the noun in the singular.
     """
     return f"{number} {what}{'s' if number != 1 else ''}"
+
+
+def amount_text(value: float) -> str:
+    """Return a number as text with three significant digits and a letter for its power of a thousand: "3.14M", "-20k".
+
+    From a thousand up the letters are k, M, G and T. Numbers below a millionth, and beyond T, have an exponent.
+    """
+    size = abs(value)
+    for power, letter in ((1e3, ""), (1e6, "k"), (1e9, "M"), (1e12, "G"), (1e15, "T")):
+        if size < 0.9995 * power:
+            scaled = float(f"{value * 1e3 / power:.3g}") + 0.0  # no "-0"
+            return f"{scaled:g}{letter}"
+    return f"{value:.3g}"

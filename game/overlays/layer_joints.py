@@ -22,6 +22,7 @@ ARC, NEEDLE = 9.0, 11.0  # [canvas px] radius of the arc between two limits, len
 ARC_STEP = 0.2  # [rad] at most between two points of an arc
 OPEN = 14.0  # [canvas px] half of an axis without limits
 BAR = (12.0, 2.0)  # [canvas px] frame for the share of the breaking force
+CROSS = 5.0  # [canvas px] half of the cross over a broken joint
 HIGH = 0.8  # share of the breaking force from which its bar is red
 COLUMNS = (
     "ax", "ay", "bx", "by", "axis_x", "axis_y", "value", "lower", "upper", "force_x", "force_y", "coordinate", "hold",
@@ -34,12 +35,17 @@ class Joints(Layer):
 
     The present value of the joint is marked between its limits. Joints that the direct solver solves (trees) are green,
     those that are solved iteratively are blue, and sleeping or disabled ones are grey. An arrow shows the force on body
-    B. A bar shows the force as a share of the breaking force.
+    B. A bar shows the force as a share of the breaking force. A joint that broke in the last stage of an inspected step
+    is red, with a cross.
+
+    only: id of the only joint that is drawn, None for all; reference: length [canvas px] of the arrow of the force that
+    the legend names.
     """
 
     name, title, key, color = "joints", "Joints", "q", GREEN
 
-    def __init__(self) -> None:
+    def __init__(self, only: int | None = None, reference: float = REFERENCE) -> None:
+        self.only, self.reference = only, reference
         self.level = 0.0  # the current quantile of the forces, decaying
         self.begin()
 
@@ -59,6 +65,9 @@ class Joints(Layer):
             return
         rows, drawn = world.joints, anchored(world)
         active = is_awake(world) & rows["enabled"]
+        if self.only is not None:
+            mine = rows["id"] == self.only
+            rows, drawn, active = rows[mine], drawn[mine], active[mine]
         self.total += len(rows)
         self.direct += int(np.count_nonzero(active & rows["direct"]))
         self.asleep += int(np.count_nonzero(~active))
@@ -73,14 +82,24 @@ class Joints(Layer):
         share[~np.isfinite(rows["break_force"]) & ~np.isfinite(rows["break_torque"])] = -1.0
         self._draw_spokes(frame, lens, world, drawn[seen])
         columns = [drawn[name][seen].tolist() for name in COLUMNS]
-        flags = (each[seen].tolist() for each in (active, rows["direct"], share))
-        for awake, direct, part, *values in zip(*flags, *columns, strict=True):
+        flags = (each[seen].tolist() for each in (active, rows["direct"], rows["broken"], share))
+        for awake, direct, broken, part, *values in zip(*flags, *columns, strict=True):
             joint = dict(zip(COLUMNS, values, strict=True))
-            tone = frame.tone(GREEN if direct else SKY) if awake else frame.tone(SLATE)
+            tone = frame.tone(RED if broken else GREEN if direct else SKY) if awake else frame.tone(SLATE)
             self._draw_line(frame, lens, joint, tone)
             self._draw_limits(frame, lens, joint, frame.tone(YELLOW) if awake else tone)
             self._draw_force(frame, lens, joint, part if awake else min(part, 0.0), awake)
             draw_anchors(frame, lens, joint, tone)
+            if broken:
+                self._draw_cross(frame, lens, joint, tone)
+
+    def _draw_cross(self, frame, lens, joint, tone):
+        """Draw a cross over the middle of a broken joint, in the colour `tone`."""
+        x, y = lens.points(0.5 * (joint["ax"] + joint["bx"]), 0.5 * (joint["ay"] + joint["by"]))
+        arm = CROSS * frame.scale
+        for color, width in ((INK, frame.scale + 2), (tone, frame.scale)):
+            for way in (-1, 1):
+                pygame.draw.line(frame.surface, color, (x - arm, y - way * arm), (x + arm, y + way * arm), width)
 
     def _draw_spokes(self, frame, lens, world, rows):
         """Draw a faint line from each anchor to the centre of mass of its body, which shows the connected bodies."""
@@ -170,7 +189,7 @@ class Joints(Layer):
         """
         x, y = lens.points(joint["bx"], joint["by"])
         if self.unit and awake:
-            scale = REFERENCE * frame.scale / self.unit
+            scale = self.reference * frame.scale / self.unit
             arrow(frame, x, y, joint["force_x"] * scale, joint["force_y"] * scale, ORANGE)
         if share < 0.0:
             return
@@ -202,7 +221,7 @@ class Joints(Layer):
             (YELLOW, "axis, limits, value in px or rad"),
         ]
         if self.unit:
-            lines.append((ORANGE, f"force, {REFERENCE:.0f} px is {short(self.unit)}"))
+            lines.append((ORANGE, f"force, {self.reference:.0f} px is {short(self.unit)}"))
         if self.breakable:
             lines.append((RED, "bar: share of the breaking force"))
         return [*lines, (SLATE, f"{self.asleep} asleep or disabled")]

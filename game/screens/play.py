@@ -20,8 +20,8 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
-from game.screens.parts.contact_inspector_view import ContactInspectorView
 from game.screens.parts.cost_panel import CostPanel
+from game.screens.parts.inspector_view import InspectorView
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.lighter import Lighter
 from game.screens.parts.measuring import Measuring
@@ -81,7 +81,7 @@ class Play(SceneScreen):
         self.measuring = Measuring(scene, devices, lambda: self.recorder)
         self.costs = CostPanel(self.measuring, self.try_setting, self.start_race, self.save_costs)
         self.costs_open = False
-        self.contact_inspector = ContactInspectorView(scene)
+        self.inspector = InspectorView(scene)
         self.lighter = Lighter(scene, devices) if self.person else None
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -327,7 +327,7 @@ class Play(SceneScreen):
             return True
         if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
             return True  # clicks on the halves of a split screen have no effect
-        if self.contact_inspector.feed(event, self.clock.paused):
+        if self.inspector.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
             self.close_costs()
@@ -443,8 +443,8 @@ class Play(SceneScreen):
             self.measuring.race.draw(frame)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
+        self.inspector.draw(frame, self.clock.paused)
         if not covered or self.news:
             draw_status(frame, self)
-        self.contact_inspector.draw(frame, self.clock.paused)
         self.session.report.note_drawing(perf_counter() - started)
         return frame

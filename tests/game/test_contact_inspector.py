@@ -115,7 +115,7 @@ def words(driver):
 
 
 def place_of_a_contact(play):
-    world, lens = play.contact_inspector.lenses[0]
+    world, lens = play.inspector.lenses[0]
     contact = world.contacts[len(world.contacts) // 2]
     x, y = lens.points(float(contact["point_x"]), float(contact["point_y"]))
     return round(x), round(y)
@@ -142,10 +142,10 @@ def test_it_goes_when_time_goes_on(frozen):
     driver, play = frozen
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.contact_inspector.chosen is not None
+    assert play.inspector.chosen is not None
     driver.key(pygame.K_p)
     driver.turns(2)
-    assert play.contact_inspector.chosen is None and "touch?" not in words(driver)
+    assert play.inspector.chosen is None and "touch?" not in words(driver)
 
 
 def test_a_running_scene_is_not_asked(frozen):
@@ -154,7 +154,7 @@ def test_a_running_scene_is_not_asked(frozen):
     driver.turns(2)
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.contact_inspector.chosen is None
+    assert play.inspector.chosen is None
 
 
 def test_a_mask_that_rests_by_its_parts_is_explained():

@@ -4,7 +4,7 @@ The second page has all texts and the goals.
 """
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import pygame
@@ -182,19 +182,26 @@ def height_of(lines: Iterable[Line]) -> int:
     return sum(line.gap + line.height for line in lines)
 
 
-def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the rectangle of a given size in `area` that covers the least text. A grid of positions is tried."""
+def least_covering(
+    frame: Frame, area: pygame.Rect, size: tuple[int, int], clear: Sequence[pygame.Rect] = ()
+) -> pygame.Rect:
+    """Return the rectangle of a given size in `area` that covers the least text. A grid of positions is tried.
+
+    clear: rectangles that the result covers as little as possible, which counts before the text.
+    """
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
         for column in range(GRID + 1)
         for row in range(GRID + 1)
     ]
+    words = [box for box, _ in frame.boxes]
+    return min(places, key=lambda place: (covered(place, clear), covered(place, words)))
 
-    def covered(place):
-        return sum(both.width * both.height for both in (place.clip(box) for box, _ in frame.boxes))
 
-    return min(places, key=covered)
+def covered(place: pygame.Rect, boxes: Iterable[pygame.Rect]) -> int:
+    """Return the total area [px] of rectangles that `place` covers."""
+    return sum(both.width * both.height for both in map(place.clip, boxes))
 
 
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
