@@ -46,3 +46,10 @@ def amount_text(value: float) -> str:
             scaled = float(f"{value * 1e3 / power:.3g}") + 0.0  # no "-0"
             return f"{scaled:g}{letter}"
     return f"{value:.3g}"
+
+
+def percent_text(share: float) -> str:
+    """Return a share as text in percent: "41 %". Small shares are "less than 1 %", large ones "over 1,000 %"."""
+    if share > 10.0:
+        return "over 1,000 %"
+    return "less than 1 %" if 0.0 < share < 0.01 else f"{100 * share:.0f} %"

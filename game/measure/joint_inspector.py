@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from game.drawing.number_text import amount_text, count_text, plain_name
+from game.drawing.number_text import amount_text, count_text, percent_text, plain_name
 from game.measure.contact_inspector import MICRO, Part
 from game.measure.joint_batch import JointBatch
 from game.measure.timing import LEAST_PAIRS, Cost
@@ -388,18 +388,14 @@ def _forces(world, row):
     words = words or ["bears nothing"]
     for name, value in (("break_force", force), ("break_torque", abs(row["torque"]))):
         if not isinf(row[name]):
-            words.append(f"{_percent(value / row[name])} of its {plain_name(name)}")
+            words.append(f"{percent_text(value / row[name])} of its {plain_name(name)}")
     words += _limit_words(row)
     if row["motor_max"] > 0.0:
-        words.append(f"motor at {_percent(abs(row['motor_force']) / row['motor_max'])} of its maximum")
+        words.append(f"motor at {percent_text(abs(row['motor_force']) / row['motor_max'])} of its maximum")
     if row["spring_hertz"] > 0.0:
         unit = TORQUE if row["coordinate"] == ANGLE else FORCE
         words.append(f"spring {amount_text(row['spring_force'])} {unit}")
     return ", ".join(words)
-
-
-def _percent(share):
-    return "less than 1 %" if 0.0 < share < 0.01 else f"{100 * share:.0f} %"
 
 
 def _weights(world, row, force):

@@ -23,6 +23,7 @@ ARC_STEP = 0.2  # [rad] at most between two points of an arc
 OPEN = 14.0  # [canvas px] half of an axis without limits
 BAR = (12.0, 2.0)  # [canvas px] frame for the share of the breaking force
 CROSS = 5.0  # [canvas px] half of the cross over a broken joint
+MOST_SHARE = 10.0  # greatest share of the breaking force that is written as a number
 HIGH = 0.8  # share of the breaking force from which its bar is red
 COLUMNS = (
     "ax", "ay", "bx", "by", "axis_x", "axis_y", "value", "lower", "upper", "force_x", "force_y", "coordinate", "hold",
@@ -199,7 +200,12 @@ class Joints(Layer):
         color = RED if share >= HIGH else ORANGE
         frame.surface.fill(frame.tone(color), (*frame_of_bar.topleft, round(width * min(share, 1.0)), height))
         pygame.draw.rect(frame.surface, frame.tone(PAPER), frame_of_bar.inflate(2, 2), 1)
-        self._label(f"{100 * share:.0f} %", frame_of_bar.right + 2 * frame.scale, frame_of_bar.top, color)
+        self._label(
+            f"{100 * share:.0f} %" if share <= 10.0 else "over 1,000 %",
+            frame_of_bar.right + 2 * frame.scale,
+            frame_of_bar.top,
+            color,
+        )
 
     def _label(self, text, x, y, color):
         if len(self.labels) < LABEL_BUDGET:

@@ -14,6 +14,7 @@ import numpy as np
 
 from game.input.inputs import InputFrame, InputState
 from game.invariants.watch import WatchedWorld
+from game.measure.joint_results import COLUMNS, joint_results
 from game.run.key_frame import KeyFrame
 from game.run.rewind import Rewind
 from game.run.session import Session
@@ -22,7 +23,7 @@ from game.scene import Scene
 from physics.step import staged_step
 from physics.tables.step_state import COUNTERS, Stage
 
-TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates")
+TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates", "joints")
 
 
 class Halted(Exception):
@@ -36,6 +37,7 @@ class Done(NamedTuple):
     counted: dict[str, int]  # increments of the counters
     changed: list[tuple[str, int, list[str]]]  # (table, number of changed rows, names of changed columns)
     rows: list[tuple[str, int, int]]  # (table, rows before, rows now) of tables with another length
+    joints: str = ""  # its results for the joints, in words
 
 
 class StepInspector:
@@ -118,7 +120,9 @@ class StepInspector:
         self.seconds[self.ran].append(seconds)
         self.ran += 1
         if self.ran == self.stop:
-            self.done = compared(stage, self.tables, photographed(world))
+            after = photographed(world)
+            joints = joint_results(world, self.tables["joints"], after["joints"], stage.stage)
+            self.done = compared(stage, self.tables, after)._replace(joints=str(joints))
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
@@ -145,6 +149,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
     """Return the changes that a stage made to the tables, as a Done.
 
     before, after: results of photographed(). Values are compared as bytes: NaN equals NaN, and -0.0 differs from 0.0.
+    The solver's scratch columns of joints are left out.
     """
     work = (after["work"] - before["work"]).tolist()
     counted = {name: count for name, count in zip(COUNTERS, work, strict=True) if count}
@@ -155,7 +160,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
             rows.append((name, len(old), len(new)))
             continue
         by_rows: dict[int, list[str]] = {}
-        for column in new.dtype.names or ():
+        for column in COLUMNS if name == "joints" else new.dtype.names or ():
             count = _differing(old[column], new[column])
             if count:
                 by_rows.setdefault(count, []).append(column)

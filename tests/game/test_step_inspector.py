@@ -24,7 +24,7 @@ from tests.game.arena import Arena
 from tests.lockstep import make_scene
 
 K = pygame
-KINDS = ("lab/pyramid", "shooter", "platformer")  # stacking, without, with a character
+KINDS = ("lab/pyramid", "shooter", "platformer", "lab/joints")  # stacking, without, with a character, with joints
 BEFORE, AFTER = (24, 6) if physics.JIT else (3, 2)
 
 

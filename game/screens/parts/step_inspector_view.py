@@ -7,7 +7,7 @@ import pygame
 
 from game.drawing.bar_table import bar_table_height, draw_bar_table
 from game.drawing.canvas import SMALL, TEXT, wrap
-from game.drawing.colors import FOG, GOLD, INK, NIGHT, ORANGE, PAPER, SKY, Color, faded
+from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, SKY, Color, faded
 from game.drawing.number_text import count_text, plain_name
 from game.drawing.presenter import Frame
 from game.invariants.watch import WatchedWorld
@@ -18,8 +18,8 @@ from game.run.session import Session
 from game.run.step_inspector import Done, StepInspector, next_input
 from game.screens.parts.lab_card import least_covering
 
-WIDTH, ROW, EDGE = 200, 7, 4  # [text px] of the card
-BETWEEN = 2  # [text px] between two paragraphs of the card
+WIDTHS, ROW, EDGE = (200, 215, 230, 250, 280), 7, 4  # [text px] of the card: the first width at which it fits
+BETWEEN = 1  # [text px] between two paragraphs of the card
 GAP = 5  # [text px] between two names in the strip
 KEYS_LINE = "\u2190 \u2192 a stage   Home End   E puts the step back"
 WORLDS_LINE = "   \u2191 \u2193 another world"
@@ -33,7 +33,8 @@ PAD_KEYS = {
     "b": pygame.K_e,
 }
 PASSED_ON = (pygame.K_0, pygame.K_F11, pygame.K_F12, pygame.K_LSHIFT, pygame.K_RSHIFT, pygame.K_LCTRL, pygame.K_RCTRL)
-COLORS = {"changed": PAPER, "counted": PAPER, "reads": SKY, "may write": ORANGE}
+COLORS = {"joints": GREEN, "changed": PAPER, "counted": PAPER, "reads": SKY, "may write": ORANGE}
+PARTS = ("x", "y", "angle", "1", "2")  # ends of the names of columns that are parts of one quantity
 # The layers that show the results or motion of a stage.
 SHOWN = {
     "awake": ("islands",),
@@ -43,14 +44,15 @@ SHOWN = {
     "broad_phase": ("pairs", "structure"),
     "narrow_phase": ("contacts",),
     "wake": ("islands",),
-    "soft_step": ("impulses", "centers"),
-    "sequential_impulse": ("impulses", "centers"),
+    "soft_step": ("impulses", "joints", "centers"),
+    "sequential_impulse": ("impulses", "joints", "centers"),
     "projection": ("contacts", "centers"),
     "blocking": ("contacts", "centers"),
     "integrate_positions": ("bounds", "centers"),
     "time_of_impact": ("ghosts",),
     "carry": ("outlines",),
     "final_poses": ("bounds", "contacts"),
+    "joints": ("joints",),
     "sensors": ("contacts",),
     "islands": ("islands",),
     "events": ("contacts",),
@@ -148,7 +150,8 @@ class StepInspectorView:
         """Turn on the overlays that show the results of the last stage, within the `with` block."""
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
-            overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
+            shown = set(SHOWN.get(self.step.done.stage.stage, ()))
+            overlays.on = chosen | (shown if len(self.step.world.joints) else shown - {"joints"})
         try:
             yield
         finally:
@@ -211,18 +214,26 @@ class StepInspectorView:
             camera = next(camera for world, camera in views if world is self.step.world)
             pygame.draw.rect(frame.surface, GOLD, frame.lens(camera).clip, max(1, frame.scale - 1))
 
-    def _draw_card(self, frame, bottom):
-        scale = frame.text_scale
-        room = WIDTH * scale
+    def _lines(self, width, scale):
+        """Return the lines of the card. width: width of the text [frame px]; scale: frame px per text px."""
         lines: list[tuple[str, Color, str, int]] = []
         for text, ink, font, height in self._paragraphs():
-            wrapped = wrap(text, room - 2 * EDGE * scale, font, scale)
+            wrapped = wrap(text, width, font, scale)
             lines += [("", ink, font, BETWEEN)] * bool(lines) + [(each, ink, font, height) for each in wrapped]
+        return lines
+
+    def _draw_card(self, frame, bottom):
+        """Draw the card above the strip of stages, whose top is `bottom`. A long card is wider, so that it fits."""
         area = frame.area.clip(frame.rect)
         area.height = bottom - area.y
         bars = bars_of(self.session.scene.totals)
         below = bar_table_height(len(bars)) + BETWEEN
-        size = room, (sum(height for *_, height in lines) + below + 2 * EDGE) * scale
+        for scale, width in ((scale, width) for scale in range(frame.text_scale, 0, -1) for width in WIDTHS):
+            room = width * scale
+            lines = self._lines(room - 2 * EDGE * scale, scale)
+            size = room, (sum(height for *_, height in lines) + below + 2 * EDGE) * scale
+            if size[0] <= area.width and size[1] <= area.height:
+                break
         head = round(self.session.scene.head * frame.zoom)
         if size[1] <= area.height - head:  # the title line stays visible
             area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
@@ -281,16 +292,18 @@ class StepInspectorView:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """Return (heading, text) pairs about a finished stage: its changes, its counters, and its declared fields.
+    """Return (heading, text) pairs about a finished stage: its results for joints, its changes, counters and fields.
 
     done: the Done of the stage.
     """
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
-        of = f" ({' '.join(columns)}) of" if columns else ""
+        of = f" ({compact(columns)}) of" if columns else ""
         changes.append(f"{name}{of} {count_text(rows, 'row')}")
     counted = [f"{plain_name(name)} {count:+,}" for name, count in done.counted.items()]
+    joints = [("joints", done.joints)] if done.joints else []
     return [
+        *joints,
         ("changed", "; ".join(changes) or "nothing in these tables"),
         ("counted", ", ".join(counted) or "nothing"),
         ("reads", grouped(done.stage.reads)),
@@ -307,5 +320,17 @@ def grouped(fields: Iterable[str]) -> str:
         if column and column not in whole[name]:
             whole[name].append(column)
     return ", ".join(
-        plain_name(name) + (f" ({' '.join(columns)})" if columns else "") for name, columns in whole.items()
+        plain_name(name) + (f" ({compact(columns)})" if columns else "") for name, columns in whole.items()
     )
+
+
+def compact(columns: Iterable[str]) -> str:
+    """Return names of columns as text. Columns of one quantity share its name: "vx vy center_x/y settled_x/y/angle"."""
+    parts: dict[str, list[str]] = {}
+    for column in columns:
+        quantity, _, part = column.rpartition("_")
+        if quantity and part in PARTS:
+            parts.setdefault(f"{quantity}_", []).append(part)
+        else:
+            parts[column] = []
+    return " ".join(name + "/".join(found) for name, found in parts.items())
