@@ -9,13 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from game.drawing.number_text import count_text, plain_name
+from game.drawing.number_text import amount_text, count_text, plain_name
 from game.measure.pair_batch import PairBatch
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import World
 from physics.collision.manifold import by_parent
 
 MICRO, NANO = 1e6, 1e9
+IMPULSE = "mass px/s"  # unit of impulses
 
 
 class Part(NamedTuple):
@@ -132,7 +133,7 @@ def _solver(world, mine):
     tangent = float(mine["tangent_impulse_1"].sum() + mine["tangent_impulse_2"][second].sum())
     count = world.substeps
     effort = "" if not world.effects.stacking else ", substeps by load" if count == "auto" else f", {count} substeps"
-    words = f"pushed by {normal:.3g} along the normal" if normal > 0.0 else "bears nothing"
+    words = f"pushed by {amount_text(normal)} {IMPULSE} along the normal" if normal > 0.0 else "bears nothing"
     if world.effects.friction:
-        words += f", held by {abs(tangent):.3g} along it"
+        words += f", held by {amount_text(abs(tangent))} {IMPULSE} along it"
     return Part(f"solver, {plain_name(world.solver)}{effort}", words + _stage(world, world.solver))

@@ -98,7 +98,7 @@ def explain(world: World, identity: int) -> list[Part]:
     parts.append(Part(f"substeps, {_substeps_name(world)}", _substeps(world, row)))
     tier = "direct" if row["direct"] else "iterative"
     parts.append(Part(f"joint solver, {tier}" if row["awake"] else "joint solver", _tier(world, row)))
-    parts.append(Part("warm start", _warm_start(row)))
+    parts.append(Part("warm start", _warm_start(world, row)))
     parts.append(Part(f"solver, {plain_name(world.solver)}", _forces(world, row) + _stage(world, world.solver)))
     parts.append(Part("joints", _report(world, row) + _stage(world, "joints")))
     return parts
@@ -246,7 +246,8 @@ def _coupling_setting(world, row):
             for side in ("a", "b")
         )
         unit = "px" if _slides(world, row) else "rad"
-        return [f"keeps {a} + {row['ratio']:.3g} x {b} at {amount_text(row['phase'])} {unit}"]
+        sign = "-" if row["ratio"] < 0.0 else "+"
+        return [f"keeps {a} {sign} {abs(row['ratio']):.3g} x {b} at {amount_text(row['phase'])} {unit}"]
     if row["hold"] == SLUNG:
         rope = "rod" if row["lower"] == row["upper"] else "rope"
         return [f"a {rope} of {row['upper']:.4g} px over two wheels, ratio {row['ratio']:.3g}"]
@@ -360,18 +361,19 @@ def _linked(world, row):
     return len(joints) - 1, max(inner - (len(reached) - 1), 0)
 
 
-def _warm_start(row):
+def _warm_start(world, row):
     names = ("hold_torque", "spring_force", "motor_force", "lower_force", "upper_force")
     kept = [hypot(row["point_force_x"], row["point_force_y"]), *(abs(row[name]) for name in names)]
     if not any(kept):
         return "nothing is kept: the next step begins at no force"
     words = [f"{amount_text(kept[0])} {FORCE} between its anchors"] if kept[0] else []
-    unit = TORQUE if row["coordinate"] == ANGLE else FORCE
     if row["hold_torque"]:
         words.append(f"{amount_text(abs(row['hold_torque']))} {TORQUE} on its angle")
     rest = sum(kept[2:])
     if rest:
-        unit = TORQUE if row["turns_motor"] and row["motor_force"] else unit
+        turning = row["coordinate"] == ANGLE or (row["hold"] == GEARED and not _slides(world, row))
+        turning |= row["turns_motor"] and row["motor_force"] != 0.0
+        unit = TORQUE if turning else FORCE
         words.append(f"{amount_text(rest)} {unit} along its coordinate")
     return f"the next step begins at {', '.join(words)}"
 
@@ -410,6 +412,8 @@ def _weights(world, row, force):
 
 def _limit_words(row):
     lower, upper = row["lower"], row["upper"]
+    if row["hold"] == SLUNG:
+        return ["rope taut" if row["upper_force"] > 0.0 else "rope slack"] if lower != upper else []
     if row["coordinate"] == NO_COORDINATE or lower == upper or (isinf(lower) and isinf(upper)):
         return []
     if row["hold"] == TOOTHED:

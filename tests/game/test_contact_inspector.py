@@ -6,6 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
+from game.drawing.number_text import amount_text
 from game.measure.contact_inspector import Touch, cost_of, explain, nearest, still_there
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -49,7 +50,7 @@ def test_the_way_of_a_box_at_rest_on_the_ground():
     assert any(f"{abs(d):.3f} px" in reported["narrow phase"] for d in world.contacts["separation"]), depth
     assert "2 of 2 points known" in reported["warm start"]
     normal = float(world.contacts["normal_impulse"].sum())
-    assert f"pushed by {normal:.3g}" in reported["solver, soft step, 4 substeps"]
+    assert f"pushed by {amount_text(normal)} mass px/s along" in reported["solver, soft step, 4 substeps"]
     mass = world.body(1).mass
     assert normal == pytest.approx(mass * 320.0 / 60.0, rel=0.02), "what it bears in a step is its weight"
 

@@ -171,6 +171,17 @@ def test_limits_reached_or_not(limits, words, tier, solver):
     assert "translation" in said(world, joint.id)["joints"]
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("gravity, words", [(320.0, "rope taut"), (-320.0, "rope slack")])
+def test_a_pulley_is_taut_or_slack(gravity, words, solver):
+    world = World(JOINTED, solver=solver, gravity=(0.0, gravity))
+    a, b = (world.add_body(Circle(8), position=(x, 100)) for x in (100, 140))
+    rope = world.add_joint(Pulley(a, b, at_a=(100, 100), at_b=(140, 100), ground_a=(100, 40), ground_b=(140, 40)))
+    for _ in range(5):
+        world.step()
+    assert words in said(world, rope.id)["solver"]
+
+
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("share", [0.25, 0.5, 1.0])
 def test_share_of_the_motors_maximum(share, tier):
@@ -209,7 +220,7 @@ def test_settings_of_gears_pulleys_and_ratchets():
         )
     ]
     assert "keeps joint 0 + 2 x joint 1 at 0 rad" in texts[0]
-    assert f"keeps joint {slide.id} + -3 x body {a.id} at 0 px" in texts[1]
+    assert f"keeps joint {slide.id} - 3 x body {a.id} at 0 px" in texts[1]
     assert "a rope of 150 px over two wheels, ratio 1.5" in texts[2]
     assert "a tooth every 0.25 rad" in texts[3]
 

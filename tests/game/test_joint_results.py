@@ -96,7 +96,7 @@ def test_the_card_has_the_results_and_the_picture_the_overlay(stage, tier):
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("machine, broken", [(1, 3), (5, 1)])
 def test_broken_joints_are_named_and_crossed_before_they_are_removed(machine, broken, tier):
-    play = inspected(machine, TIERS.index(tier), smash=True)
+    play = inspected(machine, TIERS.index(tier), 40, smash=True)
     assert "of what breaks it" in go(play, "soft_step").joints
     done = go(play, "joints")
     world, rows = play.step_inspector.step.world, play.step_inspector.step.world.joints
