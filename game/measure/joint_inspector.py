@@ -18,6 +18,7 @@ from physics import DYNAMIC, JIT, World
 from physics.annotations import Substeps
 from physics.jit import tiers
 from physics.joints.kinds import KINDS
+from physics.settings import AUTO_SUBSTEPS
 from physics.solver.joint_schur import MOST_SCHUR
 from physics.tables.joint import (
     ANGLE,
@@ -77,9 +78,10 @@ def is_there(world: World, identity: int) -> bool:
 def title_of(world: World, identity: int) -> str:
     """Return the title of a joint's card: "How does Revolute 5 hold 3 and 4?". Raises KeyError for an unknown joint."""
     row = _row(world, identity)
-    a, b = ("the world" if row[name] == WORLD else str(row[name]) for name in ("body_a", "body_b"))
     holds = row["hold"] in (PINNED, ON_AXIS) and row["follows_point"] or row["coordinate"] == LENGTH
-    return f"How does {_kind(row)} {identity} {'hold' if holds else 'act on'} {a} and {b}?"
+    bodies = [row[name] for name in ("body_a", "body_b") if row[name] != WORLD]
+    named = f"{bodies[0]} and {bodies[1]}" if len(bodies) == 2 else f"body {bodies[0]}" + " to the world" * holds
+    return f"How does {_kind(row)} {identity} {'hold' if holds else 'act on'} {named}?"
 
 
 def explain(world: World, identity: int) -> list[Part]:
@@ -114,7 +116,8 @@ def cost_of(world: World, identity: int) -> Cost | None:
         return None
     substeps: Substeps = world.substeps
     if substeps == "auto":
-        substeps = _substeps_by_load(world, row) or "auto"
+        now, following = _substeps_by_load(world, row)
+        substeps = now or following or "auto"
     return JointBatch(world, identity, LEAST_PAIRS if JIT else FEW, substeps).cost()
 
 
@@ -288,16 +291,21 @@ def _substeps_name(world):
 
 
 def _substeps_by_load(world, row):
-    """Return the number of substeps that the island of the joint takes in the next step; 0 if it is not known."""
-    movers = _movers(world, row)
-    return int(movers["substeps"].max()) if len(movers) else 0
+    """Return the numbers of substeps of the joint's group in the last and in the next step; 0: not known."""
+    movers, plan, now = _movers(world, row), world.workspace.contacts.selection.plan, 0
+    if plan.joint_count[0] and not plan.in_one_group[0]:  # else by another step than the last one
+        now = AUTO_SUBSTEPS[int(plan.classes[[row["motion_a"], row["motion_b"]]].max())]
+    return now, int(movers["substeps"].max()) if len(movers) else 0
 
 
 def _substeps(world, row):
     if world.substeps != "auto":
         return f"{world.substeps} a step: world.substeps"
-    count = _substeps_by_load(world, row)
-    return f"its island takes {count} in the next step" if count else "not known before its first step"
+    if not row["awake"]:
+        return "not solved in this step"
+    now, following = _substeps_by_load(world, row)
+    later = f"{following} in the next" if following else "not known for the next"
+    return f"its group took {now} in this step, {later}" if now else f"of its group: {later}"
 
 
 def tree_rows(row: dict[str, Any]) -> int:
