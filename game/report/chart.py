@@ -17,7 +17,8 @@ class Axis(NamedTuple):
     """One axis of a plot. label: name and unit; read: function that reads the axis's figure from a row.
 
     log: whether the axis is logarithmic if the values span a decade. mark: position of a line, such as the smallest
-    error that a player can see. decades: greatest span of a logarithmic axis.
+    error that a player can see. decades: greatest span of a logarithmic axis. cap: length of a run, where the figure is
+    a time within it; a figure that reaches it is reported as "more than" it. None: there is no such limit.
     """
 
     label: str
@@ -25,6 +26,7 @@ class Axis(NamedTuple):
     log: bool = True
     mark: float | None = None
     decades: int = 6
+    cap: float | None = None
 
 
 class Curve(NamedTuple):

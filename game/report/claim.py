@@ -5,14 +5,15 @@ from typing import NamedTuple
 
 from game.measure.pareto_front import cheaper
 
-HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
+HOLDS, FAILS, TIE, PART = "holds", "does not hold", "a tie", "holds in part"
+UNSURE = "cannot be told apart"  # the one spelling of a difference inside the noise, in the report and in the labs
 
 
 class Claim(NamedTuple):
     """One claim about the measured figures, with a verdict.
 
-    text: the claim as a sentence; figure: the measured value as text; verdict: HOLDS, FAILS or TIE; source: paper or
-    manual that makes the claim, "" for none.
+    text: the claim as a sentence; figure: the measured value as text; verdict: HOLDS, FAILS, TIE, or PART of a claim
+    about a swept parameter; source: paper or manual that makes the claim, "" for none.
     """
 
     text: str
@@ -48,9 +49,9 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
     otherwise TIE. text: the claim as a sentence; ratio: (low, middle, high); source: paper that makes the claim, or "";
     unit: text after the ratio.
     """
-    low, middle, high = ratio
+    low, _, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
-    return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
+    return Claim(text, _figure(ratio, unit), verdict, source)
 
 
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
@@ -60,9 +61,50 @@ def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: 
     otherwise TIE. text: the claim as a sentence; ratio: (low, middle, high); source: paper that makes the claim, or "";
     unit: text after the ratio.
     """
-    low, middle, high = ratio
+    low, _, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
-    return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
+    return Claim(text, _figure(ratio, unit), verdict, source)
+
+
+def region(
+    text: str, ratios: Mapping[str, tuple[float, float, float]], band: tuple[float, float], words: str, source: str = ""
+) -> Claim:
+    """Return the claim that a ratio lies in a band at every value of a swept parameter.
+
+    ratios: {value of the parameter, as text: (low, middle, high)}. band: (least, most) of the ratio. words: the words
+    for a ratio in the band, below it and above it, separated by slashes, as "faster//no faster".
+
+    The figure names the region of each word, with the least and the greatest of its ratios. The verdict is HOLDS or
+    FAILS if the whole interval is in the band, or outside it, at every value. It is PART if this differs from value to
+    value, and TIE if no interval is certainly in the band and some are unsure. Raises ValueError without a ratio.
+    """
+    if not ratios:
+        raise ValueError("a region needs a ratio")
+    inside, below, above = words.split("/")
+    least, most = band
+    regions: dict[str, list[str]] = {word: [] for word in (inside, below, above, UNSURE)}
+    for name, (low, _, high) in ratios.items():
+        is_inside = least <= low and high <= most
+        word = inside if is_inside else below if high < least else above if low > most else UNSURE
+        regions[word].append(name)
+    figure = "; ".join(
+        _reported(word, [(name, ratios[name]) for name in names]) for word, names in regions.items() if names
+    )
+    sure = len(regions[inside])
+    verdict = HOLDS if sure == len(ratios) else PART if sure else TIE if regions[UNSURE] else FAILS
+    return Claim(text, figure, verdict, source)
+
+
+def _reported(word, members):
+    middles = [ratio[1] for _, ratio in members]
+    span = f"{min(middles):.2g}" + (f" to {max(middles):.2g}" if f"{min(middles):.2g}" != f"{max(middles):.2g}" else "")
+    return f"{word} at {', '.join(name for name, _ in members)} ({span} x)"
+
+
+def _figure(ratio, unit):
+    """Return a ratio (low, middle, high) as text, with its interval if it has one."""
+    low, middle, high = ratio
+    return f"{middle:.3g} {unit}" + (f" ({low:.3g} to {high:.3g})" if low < high else "")
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:

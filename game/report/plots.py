@@ -198,10 +198,17 @@ def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
     }
     for axis, (low, middle, high) in ((panel.x, dot.x), (panel.y, dot.y)):
-        reported[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
+        reported[axis.label] = _number(middle, axis.cap) + (
+            f" ({_number(low, axis.cap)} to {_number(high, axis.cap)})" if high > low else ""
+        )
     failures = {key: count for key, count in dot.row.get("failures", {}).items() if count}
     if failures:
         reported["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
     if dot.row.get("ignored_effects"):
         reported["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
     return reported
+
+
+def _number(value: float, cap: float | None) -> str:
+    """Return a number as text: "more than" the cap if it reaches the cap of its axis."""
+    return f"more than {cap:.4g}" if cap is not None and value >= cap else f"{value:.4g}"

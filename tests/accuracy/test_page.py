@@ -42,7 +42,7 @@ def test_there_are_fifteen_and_each_claims_something(kept):
     assert len(STORY) == 15 == len(charts())
     assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 15
     verdicts = {claim.verdict for chart in charts() for claim in chart.claims(kept["rows"][chart.of or chart.key])}
-    assert verdicts == {HOLDS, FAILS, TIE}, "what does not hold is told too"
+    assert verdicts >= {HOLDS, FAILS, TIE}, "what does not hold is told too"
 
 
 def test_the_readme_has_a_plot_of_it_under_its_own_heading():

@@ -19,6 +19,7 @@ from physics import Circle
 NUDGE = 1e-9  # [px] shift of the bullet's start from run to run
 WITH_CHILD, STEPS = 1.0, 180  # [px] distance that a player can see; steps of a run
 WAYS = (("sequential_impulse", 4), ("soft_step", 2), ("soft_step", 4), ("soft_step", 8), ("soft_step", "auto"))
+LENGTH = STEPS / 60.0  # [s] of a run: the greatest time that can be measured
 SPEED = 40.0 * BOX  # [px/s]
 
 
@@ -50,7 +51,7 @@ def measure(seeds: int) -> list[Row]:
             "panel": "chaos",
             "parted": [float(each) for each in np.percentile(parted, (5, 50, 95))],
             "spread": [float(each) for each in np.percentile(gaps[:, -1], (5, 50, 95))],
-            "together": [int((parted >= STEPS / 60.0).sum()), seeds],
+            "together": [int((parted >= LENGTH).sum()), seeds],
         }
     costs = timed_steps(steps)
     return [row | {"cost": spread(costs[label])} for label, row in rows.items()]
@@ -78,41 +79,45 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         return []
     order = sorted(rows, key=lambda row: -row["parted"][1])
     first, second = order[:2]
+    if second["parted"][1] >= LENGTH:  # half of the runs of both are never seen to part
+        capped = [row["label"] for row in order if row["parted"][1] >= LENGTH]
+        text = f"{' and '.join(capped)} can be foretold the longest"
+        return [Claim(text, f"each {time_text(LENGTH)}, the length of the run", TIE)]
     sure = first["parted"][0] > second["parted"][2]
-    figure = (
-        f"{first['parted'][1]:.2f} s ({first['parted'][0]:.2f} to {first['parted'][2]:.2f}), then {second['label']} "
-    )
-    return [
-        Claim(
-            f"{first['label']} can be foretold the longest",
-            figure + f"{second['parted'][1]:.2f} s",
-            HOLDS if sure else TIE,
-        )
-    ]
+    low, middle, high = map(time_text, first["parted"])
+    interval = f" ({low} to {high})" if low != high else ""
+    figure = f"{middle}{interval}, then {second['label']} {time_text(second['parted'][1])}"
+    return [Claim(f"{first['label']} can be foretold the longest", figure, HOLDS if sure else TIE)]
 
 
+def time_text(seconds: float) -> str:
+    """Return the time at which runs part [s] as text. A time of LENGTH or more is the end of the run, not a figure."""
+    return f"more than {LENGTH:.2f} s" if seconds >= LENGTH else f"{seconds:.2f} s"
+
+
+PANELS = (
+    Panel(
+        "when",
+        Axis("us a step", time("cost")),
+        Axis(f"parted by 1 px after [s]; {LENGTH:g}: not in the run", value("parted"), log=False, cap=LENGTH),
+        panel_is("chaos"),
+        "",
+    ),
+    Panel(
+        "how far",
+        Axis("us a step", time("cost")),
+        Axis("apart after 3 s [px]", value("spread"), mark=1.0),
+        panel_is("chaos"),
+        "",
+    ),
+)
 CHART = Chart(
     11,
     "chaos",
     "Predictability of a run",
     f"Runs that begin {NUDGE:g} px apart: when do they differ by a pixel, and how far do they diverge?",
     "none: chaos has no reference; bars reach from the 5th to the 95th percentile of the runs",
-    (
-        Panel(
-            "when",
-            Axis("us a step", time("cost")),
-            Axis("parted by 1 px after [s]", value("parted"), log=False),
-            panel_is("chaos"),
-            "",
-        ),
-        Panel(
-            "how far",
-            Axis("us a step", time("cost")),
-            Axis("apart after 3 s [px]", value("spread"), mark=1.0),
-            panel_is("chaos"),
-            "",
-        ),
-    ),
+    PANELS,
     _jobs,
     _claims,
 )

@@ -7,24 +7,27 @@ Its step is divided into shorter steps instead, each with its own collision dete
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from math import exp, log
 from typing import NamedTuple
+
+import numpy as np
 
 from game.measure import studied_solvers as studied
 from game.measure.moment import failures_of
 from game.measure.pareto_front import TIE as SHARE
+from game.measure.pareto_front import pareto_front
 from game.measure.staged import advance, stages_of
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Panel, time, value
-from game.report.claim import FAILS, HOLDS, TIE, Claim
+from game.report.claim import FAILS, HOLDS, TIE, UNSURE, Claim
 from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import PILES, world_of
-from game.report.standing import VISIBLE, Watch
+from game.report.standing import FALLEN, VISIBLE, Watch
 from physics import World
 from physics.annotations import SolverName
 
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)
-WORK = 8  # substeps times iterations of the settings that the claims compare
 LEAST = 0.01  # [px] smaller errors are rounding errors, whose ratio has no meaning
 
 
@@ -136,28 +139,68 @@ def panels(pile: str) -> list[Panel]:
 
 
 def claims(rows: Sequence[Row]) -> Iterator[Claim]:
-    """Yield the claims of papers about substeps and warm starting, tested on each pile.
+    """Yield the claims of papers about substeps and warm starting, tested on each pile at equal measured time.
 
-    rows: measured rows of the chart.
+    rows: measured rows of the chart. Small steps are the settings with more substeps than iterations, and many
+    iterations are those with more iterations than substeps. 1 x 1 belongs to both.
     """
     for pile in PILES:
-        known = {Parts(*(row[name] for name in Parts._fields)): row for row in rows if row["panel"] == f"{pile}: parts"}
-        if not known:
-            continue
-        for solver in (SOFT, SEQUENTIAL):
-            cut, solved = known[Parts(solver, WORK, 1)], known[Parts(solver, 1, WORK)]
-            yield beside(f"{pile}, {solver}: {WORK} x 1 errs less than 1 x {WORK}", cut, solved, "Macklin 2019")
-        warm, cold = known[Parts(SEQUENTIAL, 1, WORK)], known[Parts(SEQUENTIAL, 1, WORK, warm=False)]
-        yield beside(f"{pile}, {SEQUENTIAL}, 1 x {WORK}: errs less warm than cold", warm, cold, "Catto 2005")
+        mine = [row for row in rows if row["panel"] == f"{pile}: parts"]
+        for solver in (SOFT, SEQUENTIAL) if mine else ():
+            usual = [row for row in mine if row["series"] == solver]
+            small = [row for row in usual if row["substeps"] > row["iterations"] or row["work"] == 1]
+            many = [row for row in usual if row["substeps"] < row["iterations"] or row["work"] == 1]
+            text = f"{pile}, {solver}: in equal time small steps err less than many iterations"
+            yield at_equal_time(text, small, many, "Macklin 2019")
+        once = [row for row in mine if row["solver"] == SEQUENTIAL and row["substeps"] == 1]
+        if once:
+            warm, cold = ([row for row in once if row["warm"] is is_warm] for is_warm in (True, False))
+            text = f"{pile}, {SEQUENTIAL}: in equal time it errs less warm than cold"
+            yield at_equal_time(text, warm, cold, "Catto 2005")
 
 
-def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return a Claim that one setting is better than another. text: the claim as a sentence.
+class Family:
+    """The least error that a family of settings reaches within a time, from its Pareto front.
 
-    The claim holds if the error of the row `better` is at least a tenth below that of the row `worse`. Errors are the
-    same in every run, so no interval is needed. source: paper that makes the claim.
+    rows: measured rows of the family. Between two points of the front, the logarithm of the error is interpolated over
+    the logarithm of the time. start: least time of the family [s].
     """
-    a, b = better["error"], worse["error"]
-    figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))
-    verdict = HOLDS if a < (1.0 - SHARE) * b else FAILS if b < (1.0 - SHARE) * a else TIE
-    return Claim(text, figure, TIE if max(a, b) < LEAST else verdict, source)
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        points = {k: (row["cost"]["seconds"][1], row["error"]) for k, row in enumerate(rows)}
+        best = [points[k] for k in pareto_front(points)]
+        self.times = [seconds for seconds, _ in best]
+        # Smaller errors are rounding errors, and greater ones are those of a pile that lies on the ground.
+        self.errors = [min(max(error, LEAST), FALLEN) for _, error in best]
+        self.start = self.times[0]
+
+    def at(self, seconds: float) -> float:
+        """Return the error [px] that is reached within a time [s]; that of a fallen pile before the first point."""
+        if seconds < self.start:
+            return FALLEN
+        return float(exp(np.interp(log(seconds), np.log(self.times), np.log(self.errors))))
+
+
+def at_equal_time(text: str, better: Sequence[Row], worse: Sequence[Row], source: str) -> Claim:
+    """Return a Claim that one family of settings errs less than another in equal measured time.
+
+    The fronts of both are compared at each of their points' times, from the time at which both have a setting. A family
+    errs less at a time if its error is a tenth below the other's, which is granted a tenth more time. The claim holds
+    if the first family errs less at some of these times and nowhere more; the figure names both regions.
+    text: the claim as a sentence; source: paper that makes the claim.
+    """
+    a, b = Family(better), Family(worse)
+    times = sorted(t for t in {*a.times, *b.times} if t >= max(a.start, b.start))
+    less = [t for t in times if a.at(t) < (1.0 - SHARE) * b.at((1.0 + SHARE) * t)]
+    more = [t for t in times if b.at(t) < (1.0 - SHARE) * a.at((1.0 + SHARE) * t)]
+    regions = [f"{word} {_region(found, a, b)}" for word, found in (("less", less), ("more", more)) if found]
+    verdict = TIE if bool(less) == bool(more) else HOLDS if less else FAILS
+    return Claim(text, "; ".join(regions) or f"{UNSURE} from {1e6 * times[0]:.3g} us on", verdict, source)
+
+
+def _region(times, first, second):
+    """Return a range of times as text, with the errors of both fronts at its start."""
+    span = f"at {1e6 * times[0]:.3g}" if len(times) == 1 else f"at {1e6 * times[0]:.3g} to {1e6 * times[-1]:.3g}"
+    errors = (family.at(times[0]) for family in (first, second))
+    mine, its = ("fallen" if error > (1.0 - SHARE) * FALLEN else f"{error:.3g} px" for error in errors)
+    return f"{span} us ({mine} against {its})"

@@ -1,12 +1,15 @@
 """Charts 4 and 9: solvers with other combinations of methods, piles to compare them, and rounded poses."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from game.measure import studied_solvers as studied
 from game.report.charts.broadphases import growth
 from game.report.charts.far import round_poses
-from game.report.charts.solver_parts import SEQUENTIAL, SOFT, WAYS, Parts, Studied, beside
+from game.report.charts.solver_parts import SEQUENTIAL, SOFT, WAYS, Parts, Studied, at_equal_time, claims
 from game.report.claim import FAILS, HOLDS, TIE
 from game.report.piles import PILES, energy, overlap, pyramid, stack, sunk, world_of
 from game.report.standing import Watch
@@ -73,12 +76,40 @@ def test_all_ways_are_named_apart():
     assert {way.substeps for way in WAYS if way.solver == SOFT} == {1, 2, 4, 8, 16, 32}
 
 
-def test_what_errs_less_is_reported_and_what_errs_alike_is_a_tie():
-    def row(error):
-        return {"error": error, "cost": {"seconds": [1e-6] * 3}}
+def family(*points):
+    """Return rows of a family of settings. points: (time [us], error [px])."""
+    return [{"error": error, "cost": {"seconds": [1e-6 * us] * 3}} for us, error in points]
 
-    verdicts = [beside("", row(a), row(b), "").verdict for a, b in ((1.0, 2.0), (2.0, 1.0), (1.0, 1.05), (1e-6, 1e-3))]
-    assert verdicts == [HOLDS, FAILS, TIE, TIE]
+
+EIGHT_STEPS = family((39, 1.74), (289, 0.0894))  # 1 x 1 and 8 x 1 of a stack of 10, sequential_impulse
+ITERATIONS = family((39, 1.74), (40, 0.459), (45, 0.14), (60, 0.09))
+
+
+@pytest.mark.parametrize(
+    "small, many, verdict, figure",
+    [
+        (EIGHT_STEPS, ITERATIONS, FAILS, "more at 40 to 60 us"),
+        (ITERATIONS, EIGHT_STEPS, HOLDS, "less at 40 to 60 us"),
+        (family((40, 1.0), (80, 0.1)), family((40, 1.0), (80, 0.105)), TIE, "cannot be told apart"),
+        (family((40, 1.0), (80, 0.001)), family((40, 1.0), (80, 0.009)), TIE, "cannot be told apart"),
+        (family((40, 1.0), (80, 0.5)), family((40, 1.0), (83, 0.5)), TIE, "cannot be told apart"),
+        (family((40, 0.1)), family((50, 1.0), (200, 0.01)), TIE, "less at 50"),
+        (family((40, 90.0), (50, 0.2)), family((40, 80.0), (60, 60.0)), HOLDS, "(0.2 px against fallen)"),
+    ],
+)
+def test_families_are_compared_in_equal_time_over_all_their_points(small, many, verdict, figure):
+    claim = at_equal_time("", small, many, "")
+    assert claim.verdict == verdict and figure in claim.figure, claim.figure
+
+
+@pytest.mark.parametrize("pile", [pile for pile in PILES if pile != "ten in each other"])
+def test_divided_steps_of_sequential_impulses_are_not_praised_for_seven_times_the_time(pile):
+    """On the kept rows, many iterations reach in a fraction of the time the error that eight divided steps have."""
+    rows = json.loads((Path(__file__).resolve().parents[3] / "docs/accuracy.json").read_text("utf-8"))["rows"][
+        "solvers"
+    ]
+    (claim,) = [each for each in claims(rows) if each.text.startswith(f"{pile}, {SEQUENTIAL}: in equal time small")]
+    assert claim.verdict == FAILS and claim.figure.startswith("more at "), claim
 
 
 @pytest.mark.parametrize("name", ["10:1", "card house", "ten in each other"])
