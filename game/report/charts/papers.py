@@ -1,24 +1,34 @@
 """Chart 15: claims of papers that no other chart tests.
 
-They are about the number of corners of polygons, iterations of GJK, and events for persisting contacts.
+They are about the number of corners of polygons, kinds of shapes, iterations of GJK, events for persisting contacts,
+filters, and the narrow phase.
 """
 
 from collections.abc import Sequence
-from math import pi
+from math import cos, pi, sin
 
 import numpy as np
 
 from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
-from game.report.claim import Claim, at_least, at_most, ratio_of
+from game.report.charts import left_out
+from game.report.claim import Claim, at_least, ratio_of, region
 from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import EFFECTS, pyramid, world_of
-from physics import Effects, Polygon, World
+from physics import Bounds, Capsule, Circle, Polygon, distance
 
 CORNERS = (3, 4, 5, 6, 8, 10, 12, 16)
 RADIUS, POSES, REPEATS = 12.0, 2000, 3  # [px], pairs, tests of a batch in a run
 SETTLE = 120
+LEAST = 50  # poses that are hits, or misses: with fewer, a kind is not timed
+GJK_CORNERS, GAPS, CALLS = (4, 8, 16), (0.1, 1.0, 10.0, 100.0), 200  # gaps in px
+KINDS = {
+    "disc": Circle(RADIUS),
+    "upright box": Bounds(Polygon.box(2.0 * RADIUS, 2.0 * RADIUS)),
+    "turned box": Polygon.box(2.0 * RADIUS, 2.0 * RADIUS),
+    "capsule": Capsule((-0.5 * RADIUS, 0.0), (0.5 * RADIUS, 0.0), 0.5 * RADIUS),
+}
 
 
 def measure_corners() -> list[Row]:
@@ -55,38 +65,68 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """Return a row for each number of corners: the mean number of GJK iterations per time-of-impact search.
+    """Return a row for each number of corners and each gap: the mean number of iterations of one call of GJK.
 
-    The searches are made for polygons that fly and rotate.
+    A call measures the distance of two regular polygons, which are CALLS times turned at random. gap: distance of the
+    circles around them [px].
     """
-    rows = []
-    for corners in (4, 8, 16):
+    chance, rows = np.random.default_rng(11), []
+    for corners in GJK_CORNERS:
         angles = 2.0 * pi * np.arange(corners) / corners
         shape = Polygon(RADIUS * np.stack([np.cos(angles), np.sin(angles)], axis=1))
-        world = World(Effects(response=True, rotation=True, continuous=True))
-        count = 200
-        chance = np.random.default_rng(11)
-        x = 120.0 * np.arange(count)
-        world.add_bodies(Polygon.box(60.0, 4.0), np.column_stack([x, np.zeros(count)]), kind="static")
-        starts = np.column_stack([x, chance.uniform(-90.0, -20.0, count)])
-        turned, speeds = chance.uniform(0.0, pi, count), np.full((count, 2), (0.0, 6000.0))
-        world.add_bodies(shape, starts, speeds, turned, angular_velocity=20.0, continuous="toi")
-        rounds = calls = 0
-        for _ in range(2):
-            world.step()
-            rounds += world.profile.counters["gjk_iterations"]
-            calls += world.profile.counters["toi_calls"]
-        rows.append(
-            {
-                "series": "GJK",
-                "label": f"{corners} corners",
-                "panel": "iterations",
-                "corners": corners,
-                "iterations": rounds / calls if calls else None,
-                "calls": calls,
-            }
-        )
+        for gap in GAPS:
+            away = 2.0 * RADIUS + gap
+            turns = chance.uniform(0.0, 2.0 * pi, (CALLS, 3)).tolist()
+            made = [
+                distance(shape, (0.0, 0.0, a), shape, (away * cos(way), away * sin(way), b)).iterations
+                for a, b, way in turns
+            ]
+            rows.append(
+                {
+                    "series": f"{gap:g} px apart",
+                    "label": f"{corners} corners, {gap:g} px apart",
+                    "panel": "iterations",
+                    "corners": corners,
+                    "gap": gap,
+                    "iterations": [min(made), sum(made) / CALLS, max(made)],
+                    "calls": CALLS,
+                }
+            )
     return rows
+
+
+def measure_shapes() -> list[Row]:
+    """Return two rows for each kind of shape: the time to test a pair of it that touches, and a pair that does not.
+
+    The boxes of all pairs overlap, so there is no miss of upright boxes. A shape is as wide as the disc.
+    """
+    chance = np.random.default_rng(13)
+    works, pieces = {}, {}
+    for name, shape in KINDS.items():
+        share, way = np.sqrt(chance.random(POSES)), chance.uniform(0.0, 2.0 * pi, POSES)
+        turns = chance.uniform(0.0, 2.0 * pi, (2, POSES))
+        offset = 3.0 * RADIUS * share[:, None] * np.stack([np.cos(way), np.sin(way)], axis=1)
+        first, second = np.column_stack([np.zeros((POSES, 2)), turns[0]]), np.column_stack([offset, turns[1]])
+        tried = PairBatch((shape,), first, (shape,), second)
+        tried.test()
+        met, near = tried.met(), np.isin(np.arange(POSES), tried.pair_of)
+        for kind, chosen in (("hit", met), ("miss", near & ~met)):
+            if chosen.sum() >= LEAST:
+                which = np.resize(np.flatnonzero(chosen), POSES)
+                batch = PairBatch((shape,), first[which], (shape,), second[which])
+                works[kind, name] = lambda batch=batch: [batch.test() for _ in range(REPEATS)]
+                pieces[kind, name] = REPEATS * len(batch)
+    return [
+        {
+            "series": kind,
+            "label": f"{name}, {kind}",
+            "panel": "shapes",
+            "shape": name,
+            "place": list(KINDS).index(name) + 1,
+            "cost": spread(cost),
+        }
+        for (kind, name), cost in timed_in_turns(works, pieces).items()
+    ]
 
 
 def measure_events() -> list[Row]:
@@ -116,8 +156,8 @@ def _jobs(scope: ReportScope) -> list[Job]:
     work = __name__
     return [
         Job(f"papers/{name}", f"{work}:measure_{name}", {}, seconds)
-        for name, seconds in (("corners", 1.5), ("iterations", 1.0), ("events", 2.0))
-    ]
+        for name, seconds in (("corners", 1.5), ("shapes", 1.0), ("iterations", 1.0), ("events", 2.0))
+    ] + left_out.jobs()
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:
@@ -127,23 +167,31 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         if few and many:
             text = f"separating axes take longer the more edges there are: 16 corners against 4, a {kind}"
             found.append(at_least(text, ratio_of(many["cost"], few["cost"]), 1.1, "Gottschalk, Lin, Manocha 1996"))
-    rounds = [row["iterations"] for row in rows if row["panel"] == "iterations" and row["iterations"] is not None]
-    if rounds:
-        most = (min(rounds), max(rounds), max(rounds))
-        text = "GJK needs few iterations, however many corners: ten in a whole time of impact"
-        found.append(at_most(text, most, 10.0, "Gilbert, Johnson, Keerthi 1988", "iterations at most"))
+    gaps = dict.fromkeys(row["gap"] for row in rows if row["panel"] == "iterations" and "gap" in row)
+    for gap in gaps:
+        rounds = {f"{row['corners']} corners": row["iterations"] for row in rows if row.get("gap") == gap}
+        counts = {name: (mean, mean, mean) for name, (_, mean, _) in rounds.items()}
+        text = f"GJK needs few iterations: ten a call on average, however many corners, {gap:g} px apart"
+        claim = region(text, counts, (0.0, 10.0), "few//more", "Gilbert, Johnson, Keerthi 1988")
+        found.append(claim._replace(figure=claim.figure.replace(" x)", " a call)")))
+    for kind in ("hit", "miss"):
+        costs = {row["shape"]: row["cost"] for row in rows if row["panel"] == "shapes" and row["series"] == kind}
+        ratios = {name: ratio_of(costs["disc"], cost) for name, cost in costs.items() if name != "disc"}
+        if ratios:
+            text = f"sphere against sphere is the fastest test, over kinds of shapes, a {kind}"
+            found.append(region(text, ratios, (0.0, 0.9), "faster than//no faster than", "Ericson 2004"))
     without, reported = by.get(("persist", "without", None)), by.get(("persist", "with", None))
     if without and reported:
         text = "events of what goes on touching cost a tenth of a step, and more"
         found.append(at_least(text, ratio_of(reported["cost"], without["cost"]), 1.1, "manuals, where they are off"))
-    return found
+    return [*found, *left_out.claims(rows)]
 
 
 CHART = Chart(
     15,
     "papers",
     "What papers claim",
-    "Do edges, iterations and events cost what papers claim?",
+    "Do shapes, iterations, events and filters cost what papers claim?",
     "counts and times, without errors",
     (
         Panel(
@@ -154,12 +202,20 @@ CHART = Chart(
             "series",
         ),
         Panel(
-            "GJK in a time of impact",
+            "GJK: least, mean and most of a call",
             Axis("corners", value("corners"), log=False),
-            Axis("iterations of one", value("iterations"), log=False),
+            Axis("iterations of a call", value("iterations"), log=False),
             panel_is("iterations"),
             "series",
         ),
+        Panel(
+            ", ".join(f"{k} {name}" for k, name in enumerate(KINDS, 1)),
+            Axis("kind of shape", value("place"), log=False),
+            Axis("ns per pair", time("cost", "ns"), log=False),
+            panel_is("shapes"),
+            "series",
+        ),
+        *left_out.PANELS,
     ),
     _jobs,
     _claims,

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from game.report.charts import broadphases, chaos
+from game.measure.rates import Rate
+from game.measure.timing import Cost
+from game.report.charts import broadphases, chaos, continuous, left_out, papers
 from game.report.claim import FAILS, HOLDS, PART, TIE, at_least, at_most, ordering, pair, region
 from game.report.plots import dots_of, shown
 from scenes.lab.broadphases import __doc__ as lab_text
@@ -146,3 +148,102 @@ def test_the_speeds_are_measured_on_bodies_that_the_broad_phase_tests():
 def test_claims_about_layouts_are_made_over_the_number_of_bodies(word):
     (claim,) = [claim for claim in broadphases._claims(ROWS["broadphases"]) if claim.text.startswith(word)]
     assert all(f"{n} bodies" in claim.figure for n in ("100", "1,000", "10,000"))
+
+
+# ---- charts 7 and 15 -------------------------------------------------------------------------------------------------
+
+
+def sweeps(share, off, toi):
+    return [
+        {"panel": continuous._density(share), "series": name, "ratio": ratio, "cost": {"seconds": [1e-6 * us] * 3}}
+        for ratio in continuous.SWEPT
+        for name, us in (("off", off), ("toi", toi if ratio < 5.0 else 3.0 * off))
+    ]
+
+
+@pytest.mark.parametrize(
+    "toi, verdict, figure",
+    [
+        (300, HOLDS, "2 to 5 x at 0.3, 1, 3, 10 (3 x)"),
+        (110, PART, "2 to 5 x at 10 (3 x); less at 0.3, 1, 3 (1.1 x)"),
+        (600, PART, "2 to 5 x at 10 (3 x); more at 0.3, 1, 3 (6 x)"),
+    ],
+)
+def test_the_price_of_sweeps_is_judged_over_speed_for_each_share_that_hits(toi, verdict, figure):
+    (claim,) = continuous._time_claims(sweeps(0.5, 100, toi))
+    assert (claim.verdict, claim.figure) == (verdict, figure) and "50 % hit" in claim.text
+
+
+@pytest.mark.parametrize("ratio", [0.3, 10.0])
+def test_as_many_discs_hit_as_the_sweep_is_measured_with(ratio):
+    rows = {(row["series"], row["share"]): row["hits"] for row in continuous.measure_density(ratio)}
+    for share in continuous.SHARES:
+        assert abs(rows["toi", share] - share * continuous.DISCS) <= 0.03 * continuous.DISCS
+
+
+@pytest.mark.parametrize("corners", papers.GJK_CORNERS)
+@pytest.mark.parametrize("gap", papers.GAPS)
+def test_iterations_are_those_of_one_call(corners, gap):
+    (row,) = [row for row in ITERATED if (row["corners"], row["gap"]) == (corners, gap)]
+    least, mean, most = row["iterations"]
+    assert 1 <= least <= mean <= most <= 2 * corners and row["calls"] == papers.CALLS
+
+
+ITERATED = papers.measure_iterations()
+
+
+def timed(panel, **fields):
+    us = fields.pop("us")
+    return {"panel": panel, "cost": {"seconds": [1e-6 * us, 1e-6 * us, 1e-6 * us]}, **fields}
+
+
+@pytest.mark.parametrize(
+    "kind, box, verdict, figure",
+    [
+        ("hit", 2.0, HOLDS, "faster than at upright box, capsule"),
+        ("hit", 0.5, PART, "faster than at capsule (0.25 x); no faster than at upright box (2 x)"),
+        ("miss", 0.5, PART, "no faster than at upright box (2 x)"),
+    ],
+)
+def test_the_disc_is_judged_over_kinds_of_shapes(kind, box, verdict, figure):
+    costs = {"disc": 1.0, "upright box": box, "capsule": 4.0}
+    rows = [timed("shapes", series=kind, shape=name, us=us) for name, us in costs.items()]
+    (claim,) = papers._claims(rows)
+    assert claim.verdict == verdict and figure in claim.figure and claim.text.endswith(kind)
+
+
+def test_a_kind_of_shape_is_timed_on_pairs_that_touch_and_on_pairs_that_do_not():
+    found = {(row["shape"], row["series"]) for row in papers.measure_shapes()}
+    assert ("disc", "hit") in found and ("disc", "miss") in found
+    assert ("upright box", "hit") in found and ("upright box", "miss") not in found
+
+
+@pytest.mark.parametrize("share, saved, verdict", [(0.7, 0.3, HOLDS), (0.0, 1.0, FAILS)])
+def test_filters_are_judged_over_the_share_that_they_reject(share, saved, verdict):
+    names = {"filtered before the narrow phase": saved, "filtered after the narrow phase": 1.0}
+    rows = [timed(left_out.FILTERED, series=name, share=share, us=us) for name, us in names.items()]
+    (claim,) = left_out.claims(rows)
+    assert claim.verdict == verdict and f"{100 * share:g} %" in claim.figure
+
+
+@pytest.mark.parametrize("shape, count, verdict", [("upright boxes", 0, HOLDS), ("discs", 20, FAILS)])
+def test_a_narrow_phase_is_left_out_only_where_no_hit_is_false(shape, count, verdict):
+    rows = [
+        timed(left_out.SKIPPED, series=f"{name} a narrow phase", shape=shape, wrong=[wrong, 100], us=us)
+        for name, wrong, us in (("with", 0, 2.0), ("without", count, 1.0))
+    ]
+    saves, right = left_out.claims(rows)
+    assert saves.verdict == HOLDS and right.verdict == verdict and f"{count}.0 %" in right.figure
+
+
+def test_a_filter_and_a_narrow_phase_change_the_work_and_not_the_hits(monkeypatch):
+    monkeypatch.setattr(left_out, "timed_steps", few_steps)
+    filtered = left_out.measure_filters()
+    assert [row["hits"] for row in filtered][::2] == [row["hits"] for row in filtered][1::2]
+    assert filtered[0]["hits"] > 500 and filtered[-1]["hits"] == 0
+    wrong = {row["shape"]: Rate(*row["wrong"]) for row in left_out.measure_skipped() if "without" in row["series"]}
+    assert wrong["upright boxes"].count == 0 and all(0.1 < wrong[each].share < 0.7 for each in left_out.SHAPES[1:])
+
+
+def few_steps(steps):
+    return {name: Cost.of([float(len([step() for _ in range(2)]))], 2) for name, step in steps.items()}
