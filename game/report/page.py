@@ -17,6 +17,7 @@ from game.report.plots import draw, shown
 from game.startup import start_line
 
 HEADLINE = "tiers"  # key of the chart whose first panel follows the answer
+STEPS = "peers"  # key of the chart with the whole steps that the answer compares
 # The questions of the report, and the keys of the charts that answer them; other charts follow the last question.
 QUESTIONS = (
     ("Which hits are fair?", ("tiers", "contacts", "fit", "continuous", "continuous-time")),
@@ -59,7 +60,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
         "version": VERSION,
         "kind": "quick" if manifest["quick"] else "full",
         "machine": _machine(manifest["machine"], spent),
-        "answer": escape(answer_of(rows.get(HEADLINE, []))),
+        "answer": escape(answer_of(rows.get(HEADLINE, []), rows.get(STEPS, []))),
         "headline": _headline(measured, reported, folder, quick),
         "contents": "".join(_contents(number, *group) for number, group in enumerate(groups)),
         "failures": _failures(measured),
@@ -126,6 +127,7 @@ def _chart(measured, reported, folder, quick):
         _figure(panel, rows, f"{chart.key}-{number}", reported, folder, quick) for number, panel in enumerate(panels)
     )
     text = text or "<p>Nothing of this is measured.</p>"
+    text += "".join(f"<p>{escape(job)} is missing: {escape(why)}</p>" for job, why in measured.failed.items())
     return (
         f'<section id="{chart.key}"><h3>{chart.number}. {escape(chart.title)}</h3>'
         f"<p>{escape(chart.question)}</p><p class=truth>Truth: {escape(chart.truth)}</p>"

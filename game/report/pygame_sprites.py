@@ -257,7 +257,8 @@ class Way(NamedTuple):
 
 
 PLAIN, BEST = "pygame: Rect, then Mask", "pygame: sorted along x"
-STEP, MOVE, RECIPE = "ours: step", "ours: move, step, touching", "ours: the docs' recipe"
+STEP, BOXES = "ours: step", "ours: step, boxes"
+MOVE, RECIPE = "ours: move, step, touching", "ours: the docs' recipe"
 MANY, FEW = 10**6, 300
 WAYS = {
     "pygame: Rect": Way(RectsOnly, MANY),
@@ -267,7 +268,7 @@ WAYS = {
     STEP: Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "pixels"), MANY),
     MOVE: Way(lambda traffic: Moved(traffic, SpatialHashGrid(), "pixels"), MANY),
     RECIPE: Way(Recipe, MANY),
-    "ours: step, boxes": Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "aabb"), MANY),
+    BOXES: Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "aabb"), MANY),
     "ours: step, tree": Way(lambda traffic: Stepped(traffic, DynamicTree(), "pixels"), MANY),
     "ours: step, outline": Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "outline"), MANY),
 }

@@ -2,51 +2,59 @@
 
 They are pygame's rectangles and masks, and pymunk's solver. Each library is shown at its best. pygame is measured as a
 plain program and as the best program that we know. pymunk is measured with several overlap slops, iterations and
-substeps.
+substeps. Box2D v3 is not measured: its figures are quoted from box2d.json, beside those of Hitbox and pymunk on its
+machine, and are not compared with times of this report.
 
 Sprites are moved by whole pixels, because pygame compares whole pixels. The reference is the set of pairs of masks that
 share a pixel, found by testing all pairs.
 """
 
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import product
+from pathlib import Path
 from typing import Any
 
+from game.measure.pareto_front import TIE as SHARE
 from game.measure.pareto_front import pareto_front
 from game.measure.rates import Rate
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
-from game.report.claim import HOLDS, Claim, at_least, ordering, pair, ratio_of
+from game.report.claim import FAILS, HOLDS, TIE, Claim, at_least, ordering, pair, ratio_of
 from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.piles import overlap, pyramid, world_of
-from game.report.pygame_sprites import BEST, FRAMES, MOVE, RECIPE, STEP, Traffic, programs
-from game.report.pymunk_piles import overlap_in, space_of
+from game.report.pygame_sprites import BEST, FRAMES, MOVE, RECIPE, STEP, Hits, Traffic, programs
+from game.report.pymunk_piles import library, overlap_in, space_of
 
 LOOKS = 4  # frames whose hits are compared with the truth
 SLOPS, ITERATIONS, DIVISIONS = (0.1, 0.03, 0.01), (5, 10, 20, 40), (1, 2, 4)  # of pymunk; slops in px
 SUBSTEPS = (1, 2, 4, 8, "auto")
 SETTLE, LAST = 120, 30  # steps before the measurement; the deepest overlap of the last ones counts
 DT = 1.0 / 60.0  # [s]
+QUOTED = json.loads(Path(__file__).parents[1].joinpath("box2d.json").read_text(encoding="utf-8"))
+ELSEWHERE = "measured elsewhere, not compared with this report: a step of a pyramid"
 ALIKE = (1.0, 0.1, 0.03)  # [px] overlaps at which the engines' times are compared
 
 
 def measure_sprites(count: int) -> list[Row]:
     """Return a row for each way to find all hits among `count` sprites: time per frame, false and missed hits.
 
-    All ways play the same frames. The field "tested" is the number of pairs of boxes that a broad phase tested in the
-    measured frames. Raises RuntimeError for a world that tested none, because its time would have no meaning.
+    All ways play the same frames. A pair is one encounter, however many of the LOOKS frames it lasts. The field
+    "tested" is the number of pairs of boxes that a broad phase tested in the measured frames. Raises RuntimeError for a
+    world that tested none, because its time would have no meaning.
     """
     traffic = Traffic(count)
     made = dict(programs(traffic))
-    wrong, missed = ({name: Rate(0, 0) for name in made} for _ in range(2))
-    for frame in range(1, LOOKS + 1):
-        truth = traffic.truth(frame)
-        for name, program in made.items():
+    truth: Hits = set().union(*(traffic.truth(frame) for frame in range(1, LOOKS + 1)))
+    wrong, missed = {}, {}
+    for name, program in made.items():
+        found: Hits = set()
+        for _ in range(LOOKS):
             program.play()
-            found = program.found()
-            wrong[name] = Rate(wrong[name].count + len(found - truth), wrong[name].total + len(found))
-            missed[name] = Rate(missed[name].count + len(truth - found), missed[name].total + len(truth))
+            found |= program.found()
+        wrong[name] = Rate(len(found - truth), len(found))
+        missed[name] = Rate(len(truth - found), len(truth))
     before = {name: getattr(program, "tested", 0) for name, program in made.items()}
     costs = timed_steps({name: program.play for name, program in made.items()}, FRAMES)
     rows = []
@@ -67,6 +75,23 @@ def measure_sprites(count: int) -> list[Row]:
             }
         )
     return rows
+
+
+def quote_box2d() -> list[Row]:
+    """Return the rows of box2d.json: times of a step [us] of Box2D v3, and of others on the same machine."""
+    return [
+        {
+            "series": f"{name}, elsewhere",
+            "label": f"{name}, {row['boxes']} boxes; {QUOTED['version']}; {QUOTED['machine']}; {QUOTED['measured']}",
+            "panel": ELSEWHERE,
+            "boxes": row["boxes"],
+            "quoted_us": 1e3 * row["step_ms"],
+            "machine": QUOTED["machine"],
+            "version": QUOTED["version"],
+        }
+        for name, rows in QUOTED["engines"].items()
+        for row in rows
+    ]
 
 
 def _settled(step: Callable[[], object], depth: Callable[[], float]) -> float:
@@ -90,15 +115,19 @@ def _steps_of(space: Any, divisions: int) -> None:
 def measure_piles(rows: int) -> list[Row]:
     """Return a row for each engine and setting: the overlap of a pyramid after two seconds, and the time of a step.
 
-    A step is 1/60 s. rows: number of rows of the pyramid. Each setting starts from a new pyramid. Raises
-    ModuleNotFoundError if pymunk is missing.
+    A step is 1/60 s. rows: number of rows of the pyramid. Each setting starts from a new pyramid. Without pymunk, a row
+    without figures says so.
     """
-    made, found, steps = pyramid(rows), {}, {}
+    made, found, steps, missing = pyramid(rows), {}, {}, ""
+    try:
+        library()
+    except ModuleNotFoundError as error:
+        missing = str(error)
     for substeps in SUBSTEPS:
         world, label = world_of(made, "soft_step", substeps), f"ours: {substeps} substeps"
         steps[label] = world.step
         found[label] = ("ours", _settled(world.step, partial(overlap, world)), {"substeps": substeps})
-    for slop, count, divisions in product(SLOPS, ITERATIONS, DIVISIONS):
+    for slop, count, divisions in () if missing else product(SLOPS, ITERATIONS, DIVISIONS):
         space = space_of(made, count)
         space.collision_slop = slop
         label = f"pymunk: slop {slop:g} px, {count} iterations, {divisions} substeps"
@@ -106,17 +135,11 @@ def measure_piles(rows: int) -> list[Row]:
         given = {"slop": slop, "iterations": count, "substeps": divisions}
         found[label] = ("pymunk", _settled(steps[label], partial(overlap_in, space)), given)
     costs = timed_steps(steps, 20)
+    panel = f"pyramid of {len(made.places)}"
     return [
-        {
-            "series": engine,
-            "label": label,
-            "panel": f"pyramid of {len(made.places)}",
-            **given,
-            "overlap": deep,
-            "cost": spread(costs[label]),
-        }
+        {"series": engine, "label": label, "panel": panel, **given, "overlap": deep, "cost": spread(costs[label])}
         for label, (engine, deep, given) in found.items()
-    ]
+    ] + ([{"series": "pymunk", "label": missing, "panel": panel}] if missing else [])
 
 
 def _jobs(scope: ReportScope) -> list[Job]:
@@ -124,6 +147,7 @@ def _jobs(scope: ReportScope) -> list[Job]:
     counts, rows = ((300,), (10,)) if scope.quick else ((100, 300, 1000, 2000), (10, 20, 45))
     return [
         *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, 2.0 + n / 80) for n in counts),
+        Job("peers/box2d", f"{work}:quote_box2d", {}, 0.1),
         *(Job(f"peers/pyramid-{n}", f"{work}:measure_piles", {"rows": n}, n * n / 12) for n in rows),
     ]
 
@@ -144,9 +168,30 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
             for name in (STEP, MOVE, RECIPE)
             if name in exact and BEST in exact
         ]
-    for panel in dict.fromkeys(row["panel"] for row in rows if row["panel"] != "sprites"):
-        found += [_at_overlap(panel, most, rows) for most in ALIKE]
-    return found
+    for panel in _piles(rows):
+        missing = [row["label"] for row in rows if row["panel"] == panel and "cost" not in row]
+        if missing:
+            found.append(Claim(f"{panel} boxes: beside pymunk", missing[0], TIE))
+        else:
+            found += [_at_overlap(panel, most, rows) for most in ALIKE]
+    return [*found, *_quoted_claims(rows)]
+
+
+def _piles(rows) -> list[str]:
+    """Return the names of the panels that show piles."""
+    return [panel for panel in dict.fromkeys(row["panel"] for row in rows) if panel.startswith("pyramid of ")]
+
+
+def _quoted_claims(rows) -> Iterator[Claim]:
+    """Yield a Claim for each pile that Box2D and Hitbox stepped elsewhere, on one machine."""
+    quoted = {(row["series"].split(",")[0], row["boxes"]): row for row in rows if row["panel"] == ELSEWHERE}
+    for (name, count), row in quoted.items():
+        ours = quoted.get(("Hitbox", count))
+        if name == "Box2D v3" and ours:
+            its, mine = row["quoted_us"], ours["quoted_us"]
+            figure = f"{its:.3g} us against {mine:.3g} us there: {row['version']}; {row['machine']}; one run"
+            text = f"pyramid of {count} boxes, 4 substeps, quoted from elsewhere: Box2D v3 takes less time than Hitbox"
+            yield Claim(text, figure, HOLDS if its < (1.0 - SHARE) * mine else FAILS, "game/report/box2d.json")
 
 
 def _at_overlap(panel, most, rows) -> Claim:
@@ -171,7 +216,9 @@ def fronts(rows: Sequence[Row], panel: str) -> dict[str, list[Row]]:
     """
     found = {}
     for engine in ("ours", "pymunk"):
-        mine = {row["label"]: row for row in rows if row["panel"] == panel and row["series"] == engine}
+        mine = {
+            row["label"]: row for row in rows if row["panel"] == panel and row["series"] == engine and "cost" in row
+        }
         points = {label: (pair(row["cost"])[1], row["overlap"]) for label, row in mine.items()}
         found[engine] = [mine[label] for label in pareto_front(points)]
     return found
@@ -205,17 +252,21 @@ def _panels(rows: Sequence[Row]) -> list[Panel]:
     ]
     piles = [
         Panel(panel, Axis("us a step", time("cost")), Axis("overlap [px]", value("overlap"), mark=1.0), panel_is(panel))
-        for panel in dict.fromkeys(row["panel"] for row in rows if row["panel"] != "sprites")
+        for panel in _piles(rows)
     ]
-    return [*(sprites if counts else []), *piles]
+    quoted = Panel(
+        ELSEWHERE, Axis("boxes", value("boxes")), Axis("us a step", value("quoted_us")), panel_is(ELSEWHERE), "series"
+    )
+    return [*(sprites if counts else []), *piles, quoted]
 
 
 CHART = Chart(
     14,
     "peers",
-    "Beside pygame and pymunk",
+    "Beside pygame, pymunk and Box2D",
     "What does the same work cost with common libraries, and is it as exact?",
-    "sprites: which masks share a pixel, asked for every pair in each frame; piles: no box overlaps another",
+    "sprites: which masks share a pixel, asked for every pair in each frame; piles: no box overlaps another. Box2D's "
+    f"figures are quoted, not measured here: {QUOTED['version']}; {QUOTED['machine']}; {QUOTED['measured']}",
     _panels,
     _jobs,
     _claims,

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from game.measure.timing import Cost
 from game.report.charts import peers
 from game.report.claim import HOLDS, TIE
+from game.report.plots import dots_of
 from game.report.pygame_sprites import BEST, FASTEST, FRAMES, MOVE, PLAIN, RECIPE, STEP, WAYS, Traffic, programs
 
 EXACT = (PLAIN, BEST, "pygame: groupcollide", STEP, MOVE, RECIPE, "ours: step, tree")
@@ -93,3 +95,50 @@ def test_pymunk_is_measured_over_slop_iterations_and_substeps():
     assert settings == {(s, i, d) for s in (0.1, 0.03, 0.01) for i in (5, 10, 20, 40) for d in (1, 2, 4)}
     assert {row["substeps"] for row in rows if row["series"] == "ours"} == {1, 2, 4, 8, "auto"}
     assert all(0.0 <= row["overlap"] < 1.0 for row in rows)
+
+
+@pytest.mark.parametrize("rows", [2, 3])
+def test_a_missing_pymunk_is_named_in_the_chart_and_our_rows_stay(rows, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pymunk", None)
+    found = peers.measure_piles(rows)
+    assert [row["series"] for row in found] == ["ours"] * len(peers.SUBSTEPS) + ["pymunk"]
+    panel = f"pyramid of {rows * (rows + 1) // 2}"
+    (claim,) = peers._claims(found)
+    assert claim.text == f"{panel} boxes: beside pymunk" and "pymunk is not installed" in claim.figure
+    drawn = next(each for each in peers._panels(found) if each.title == panel)
+    assert len(dots_of(drawn, found)) == len(peers.SUBSTEPS)
+
+
+@pytest.mark.parametrize("boxes, its, mine", [(55, 33.0, 80.0), (210, 118.0, 217.0), (1035, 465.0, 733.0)])
+def test_figures_of_box2d_are_quoted_with_machine_and_version(boxes, its, mine):
+    """Quoted times are compared with each other alone. No claim mixes them with measured ones."""
+    rows = [row for row in peers.quote_box2d() if row["boxes"] == boxes]
+    assert {row["series"]: row["quoted_us"] for row in rows if "pymunk" not in row["series"]} == {
+        "Box2D v3, elsewhere": pytest.approx(its),
+        "Hitbox, elsewhere": pytest.approx(mine),
+    }
+    assert all("cost" not in row and "617d32a" in row["label"] and "Linux x86-64" in row["label"] for row in rows)
+    (claim,) = peers._claims([*ROWS, *PEER, *rows])[len(peers.ALIKE) :]
+    assert claim.verdict == HOLDS and "quoted from elsewhere" in claim.text and "617d32a" in claim.figure
+    (panel,) = [each for each in peers._panels(rows) if each.title == peers.ELSEWHERE]
+    assert len(dots_of(panel, rows)) == 3
+    assert "617d32a" in peers.CHART.truth and "not measured here" in peers.CHART.truth
+
+
+def test_a_pair_that_lasts_is_one_encounter(monkeypatch):
+    """A rate counts pairs, not pairs times frames: its total does not grow with the frames that are looked at."""
+    totals = []
+    for looks in (1, 4):
+        monkeypatch.setattr(peers, "LOOKS", looks)
+        monkeypatch.setattr(peers, "timed_steps", lambda steps, count: one_call(steps))
+        row = next(row for row in peers.measure_sprites(60) if row["series"] == STEP)
+        assert row["wrong"][0] == row["missed"][0] == 0
+        totals.append(row["wrong"][1])
+    assert totals[0] <= totals[1] < 2 * totals[0]
+
+
+def one_call(steps):
+    for step in steps.values():
+        for _ in range(FRAMES):
+            step()
+    return {name: Cost(1.0, 1.0, 1.0, 1, 1) for name in steps}

@@ -20,6 +20,7 @@ from game.report.charts.tiers import AROUND
 from game.report.claim import FAILS, HOLDS, TIE, at_least, at_most, ordering
 from game.report.job import Job, ReportScope, spread
 from game.report.page import PAGE, QUESTIONS, _claims, as_csv
+from game.report.pygame_sprites import BOXES, STEP
 from game.report.store import Store
 from scenes import SCENES
 
@@ -104,14 +105,36 @@ def row_of(tier, sprite, seconds, wrong=(0, 100)):
     return {"panel": AROUND, "series": tier, "sprite": sprite, "wrong": list(wrong), "hit_cost": cost}
 
 
-def test_the_answer_is_what_the_rows_say():
-    rows = [row_of("aabb", "a", 1.0, (30, 100)), row_of("mask", "a", 2.0), row_of("hull", "a", 9.0, (90, 100))]
-    rows += [row_of("aabb", "b", 1.0, (10, 100)), row_of("mask", "b", 3.0)]
-    said = answer_of(rows)
-    assert "Of 100 hits by the boxes of sprites, 20 are false (15 to 26)." in said and "2.0 to 3.0 x the time" in said
-    same = answer_of([row_of("aabb", "a", 1.0, (30, 100)), row_of("mask", "a", 1.0)])
-    assert "no more time that can be told apart" in same
-    assert answer_of([]) == WAITS == answer_of(rows[:1])
+def step_of(series, n, seconds, wrong=(0, 100)):
+    cost = {"seconds": [seconds, 1.1 * seconds, 1.2 * seconds]}
+    return {"panel": "sprites", "series": series, "n": n, "wrong": list(wrong), "cost": cost}
+
+
+TIER_ROWS = [row_of("aabb", "a", 1.0, (90, 100)), row_of("mask", "a", 2.0), row_of("hull", "a", 9.0, (90, 100))]
+TIER_ROWS += [row_of("aabb", "b", 1.0, (90, 100)), row_of("mask", "b", 3.0)]
+
+
+@pytest.mark.parametrize(
+    "pixels, wrong, text",
+    [
+        ((0.5, 0.8), (0, 100), "By their pixels none is, and the time of a whole step is 0.5 to 0.8 x that by boxes."),
+        ((2.0, 2.0), (0, 100), "By their pixels none is, and the time of a whole step is 2.0 x that by boxes."),
+        ((1.0, 1.05), (0, 100), "and the time of a whole step cannot be told apart from that by boxes."),
+        ((1.0, 1.0), (1, 100), "By their pixels 1.0 are, and"),
+    ],
+)
+def test_the_answer_is_about_pixels_in_whole_steps(pixels, wrong, text):
+    """Boxes and pixels are compared in the same steps of chart 14. The exact test of turned pixels is named as such."""
+    rows = [step_of(BOXES, 300, 1.0, (30, 100)), step_of(STEP, 300, pixels[0], wrong)]
+    rows += [step_of(BOXES, 2000, 1.0, (10, 100)), step_of(STEP, 2000, pixels[1], wrong)]
+    said = answer_of(TIER_ROWS, rows)
+    assert said.startswith("Of 100 hits by the boxes of upright sprites, 20 are false (15 to 26). ") and text in said
+    assert said.endswith("Rotated, by exact pixels (tier mask), the time of a hit is 2.0 to 3.0 x that by boxes.")
+
+
+def test_the_answer_waits_for_both_charts():
+    rows = [step_of(BOXES, 300, 1.0), step_of(STEP, 300, 1.0)]
+    assert answer_of([], rows) == answer_of(TIER_ROWS, rows[:1]) == answer_of(TIER_ROWS[:1], rows) == WAITS
 
 
 def test_nothing_is_wider_than_a_phone():
