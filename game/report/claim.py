@@ -96,9 +96,10 @@ def region(
 
 
 def _reported(word, members):
+    """Return a region as text. members: (value of the parameter, ratio) of its members."""
     middles = [ratio[1] for _, ratio in members]
-    span = f"{min(middles):.2g}" + (f" to {max(middles):.2g}" if f"{min(middles):.2g}" != f"{max(middles):.2g}" else "")
-    return f"{word} at {', '.join(name for name, _ in members)} ({span} x)"
+    low, high = (f"{each:.2g}" if each < 10.0 else f"{each:,.0f}" for each in (min(middles), max(middles)))
+    return f"{word} at {', '.join(name for name, _ in members)} ({low if low == high else f'{low} to {high}'} x)"
 
 
 def _figure(ratio, unit):

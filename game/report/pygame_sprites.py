@@ -43,7 +43,7 @@ class Traffic:
         self.arrays = [(starts + step * self.motions).astype(float) for step in steps]
         self.positions = [[(int(x), int(y)) for x, y in each] for each in self.arrays]
         self.kinds = [PixelMask(atlas.mask(name).solid, origin=(0, 0)) for name in SPRITES]
-        masks = [_pygame_mask(kind) for kind in self.kinds]
+        masks = [mask_in_pygame(kind) for kind in self.kinds]
         self.masks = [masks[k] for k in self.which]
 
     def truth(self, frame: int) -> Hits:
@@ -57,7 +57,8 @@ class Traffic:
         }
 
 
-def _pygame_mask(mask):
+def mask_in_pygame(mask: PixelMask) -> pygame.Mask:
+    """Return a PixelMask as a pygame Mask."""
     made = pygame.Mask(mask.solid.shape[::-1])
     for y, x in np.argwhere(mask.solid).tolist():
         made.set_at((x, y))

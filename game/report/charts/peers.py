@@ -1,9 +1,9 @@
 """Chart 14: comparison with common libraries, which do the same work.
 
-They are pygame's rectangles and masks, and pymunk's solver. Each library is shown at its best. pygame is measured as a
-plain program and as the best program that we know. pymunk is measured with several overlap slops, iterations and
-substeps. Box2D v3 is not measured: its figures are quoted from box2d.json, beside those of Hitbox and pymunk on its
-machine, and are not compared with times of this report.
+They are pygame's rectangles and masks, and pymunk's solver and rays. Each library is shown at its best. pygame is
+measured as a plain program and as the best program that we know. pymunk is measured with several overlap slops,
+iterations and substeps. Box2D v3 is not measured: its figures are quoted from box2d.json, beside those of Hitbox and
+pymunk on its machine, and are not compared with times of this report.
 
 Sprites are moved by whole pixels, because pygame compares whole pixels. The reference is the set of pairs of masks that
 share a pixel, found by testing all pairs.
@@ -21,6 +21,7 @@ from game.measure.pareto_front import pareto_front
 from game.measure.rates import Rate
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
+from game.report.charts import peer_queries
 from game.report.claim import FAILS, HOLDS, TIE, Claim, at_least, ordering, pair, ratio_of
 from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.piles import overlap, pyramid, world_of
@@ -148,6 +149,7 @@ def _jobs(scope: ReportScope) -> list[Job]:
     return [
         *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, 2.0 + n / 80) for n in counts),
         Job("peers/box2d", f"{work}:quote_box2d", {}, 0.1),
+        *peer_queries.jobs(scope.quick),
         *(Job(f"peers/pyramid-{n}", f"{work}:measure_piles", {"rows": n}, n * n / 12) for n in rows),
     ]
 
@@ -158,7 +160,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         exact = {
             row["series"]: row["cost"]
             for row in rows
-            if row.get("n") == count and row["wrong"][0] == 0 and row["missed"][0] == 0
+            if row["panel"] == "sprites" and row["n"] == count and row["wrong"][0] == 0 and row["missed"][0] == 0
         }
         found.append(ordering(f"{count} sprites, every hit right", {name: pair(cost) for name, cost in exact.items()}))
         found += [
@@ -174,7 +176,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
             found.append(Claim(f"{panel} boxes: beside pymunk", missing[0], TIE))
         else:
             found += [_at_overlap(panel, most, rows) for most in ALIKE]
-    return [*found, *_quoted_claims(rows)]
+    return [*found, *peer_queries.claims(rows), *_quoted_claims(rows)]
 
 
 def _piles(rows) -> list[str]:
@@ -257,7 +259,7 @@ def _panels(rows: Sequence[Row]) -> list[Panel]:
     quoted = Panel(
         ELSEWHERE, Axis("boxes", value("boxes")), Axis("us a step", value("quoted_us")), panel_is(ELSEWHERE), "series"
     )
-    return [*(sprites if counts else []), *piles, quoted]
+    return [*(sprites if counts else []), *piles, *peer_queries.panels(), quoted]
 
 
 CHART = Chart(

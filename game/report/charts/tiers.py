@@ -12,6 +12,7 @@ import numpy as np
 from game.measure.rates import Rate
 from game.measure.tiers import Poses, TierFigures, measure_at, poses_around
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
+from game.report.charts import tier_steps
 from game.report.claim import FAILS, HOLDS, TIE, Claim, ordering, pair
 from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.sprites import FEW, SPRITES, mask_of
@@ -88,13 +89,13 @@ def _jobs(scope: ReportScope) -> list[Job]:
             4.0 if scope.quick else 15.0,
         )
         for atlas, name in chosen
-    ]
+    ] + tier_steps.jobs(scope)
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:
-    found = []
-    for sprite in dict.fromkeys(row["sprite"] for row in rows):
-        mine = [row for row in rows if row["sprite"] == sprite and row["panel"] == AROUND]
+    found = tier_steps.claims(rows)
+    for sprite in dict.fromkeys(row["sprite"] for row in rows if row["panel"] == AROUND):
+        mine = [row for row in rows if row["panel"] == AROUND and row["sprite"] == sprite]
         for kind in ("hit", "miss"):
             costs = {row["series"]: pair(row[f"{kind}_cost"]) for row in mine}
             found.append(ordering(f"{sprite}, a {kind}", costs, 1e9, "ns"))
@@ -164,7 +165,8 @@ CHART = Chart(
         _rates(kind, wrong, word, panel)
         for panel in (AROUND, NEAR)
         for kind, wrong, word in (("hit", "wrong", "wrong hits"), ("miss", "missed", "missed hits"))
-    ),
+    )
+    + tier_steps.STEP_PANELS,
     _jobs,
     _claims,
 )
