@@ -42,12 +42,27 @@ ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they
 
 @dataclass(frozen=True)
 class Goal:
-    """Goal that a scene must reach by frame `due`. met: whether it is reached; detail: the progress, as text."""
+    """Goal that a scene must reach by frame `due`. met: whether it is reached; detail: the progress, as text.
+
+    measured: False as long as the scene has nothing to judge the goal by, for example before a key is pressed. Such a
+    goal has not failed, even after frame `due`.
+    """
 
     name: str
     due: int
     met: bool
     detail: str = ""
+    measured: bool = True
+
+    def waits(self, frame: int) -> bool:
+        """Return whether the goal may still be reached at frame `frame`: it is not due yet, or not measured."""
+        return not self.met and (frame < self.due or not self.measured)
+
+    @property
+    def text(self) -> str:
+        """The name of the goal, and its progress: "not yet" before anything is measured."""
+        detail = self.detail if self.measured else "not yet"
+        return f"{self.name}: {detail}" if detail else self.name
 
 
 @dataclass(frozen=True)

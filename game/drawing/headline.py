@@ -36,6 +36,13 @@ class Headline(NamedTuple):
     of: str
     good: bool = False
 
+    def asks(self, question: str) -> "Headline":
+        """Return this headline. Its sentence is replaced by `question`, unless the number is known and shows the fault.
+
+        So the sentence states the fault only beside a number that shows it.
+        """
+        return self if self.known and not self.good else self._replace(sentence=question)
+
     @property
     def known(self) -> bool:
         """Whether there are enough data to show the number."""

@@ -70,8 +70,8 @@ def figures_of(scene: Scene) -> Iterator[Figure]:
     if headline is not None and headline.known:
         yield Figure("headline", headline.sentence, headline.number, headline.unit)
     for goal in scene.check():
-        verdict = "met" if goal.met else "pending" if scene.frame < goal.due else "not met"
-        yield Figure("goal", goal.name, verdict, goal.detail)
+        verdict = "met" if goal.met else "pending" if goal.waits(scene.frame) else "not met"
+        yield Figure("goal", goal.name, verdict, goal.detail if goal.measured else "not yet")
     if finding := scene.finding():
         yield Figure("finding", scene.name, finding)
     for part, count in scene.own_hits.items():

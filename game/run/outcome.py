@@ -134,7 +134,7 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
     for goal in scene.check():
         if goal.met:
             continue
-        line = f"{goal.name}: {goal.detail}" if goal.detail else goal.name
+        line = goal.text
         if goal.due > frames:
             pending.append(f"{line} (due {goal.due})")
         else:

@@ -341,9 +341,10 @@ class Billiards(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        sentence = "Until a ball meets a cushion, a break keeps the momentum it was given."
+        sentence = "A break loses momentum before a ball meets a cushion."
         number, unit, good = f"{100 * (1 - self.kept):.3f} %", "of the momentum kept", self.kept < 1e-9
-        return Headline(sentence, "Space: shoot", number, unit, self.compared, ENOUGH, "steps after a shot", good)
+        headline = Headline(sentence, "Space: shoot", number, unit, self.compared, ENOUGH, "steps after a shot", good)
+        return headline.asks("Does a break keep its momentum until a ball meets a cushion?")
 
     def finding(self):
         """Return a sentence with the greatest error of momentum and the greatest gain of energy.

@@ -254,9 +254,10 @@ class CardHouse(Scene):
         """Return the Headline: the sentence and the number in the scene's title line."""
         fell = sum(self.moved(card) >= REACH / 2 for card in self.cards)
         friction = self.values["friction"] / 100
-        sentence = f"Friction alone holds the cards: here it is {friction:.2f}, a pair needs {NEEDED:.3f}."
+        sentence = f"At a friction of {friction:.2f} cards slide: a pair needs {NEEDED:.3f}."
         number, unit = f"{fell} of {len(self.cards)}", "cards fell or slid"
-        return Headline(sentence, "up: more", number, unit, self.since, 60, "steps", not fell)
+        headline = Headline(sentence, "up: more", number, unit, self.since, 60, "steps", not fell)
+        return headline.asks(f"A pair of cards needs {NEEDED:.3f}: does a friction of {friction:.2f} hold them?")
 
     def finding(self):
         """Return a sentence with the time that the house has stood at its friction.

@@ -316,9 +316,10 @@ class Carving(Scene):
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
         lost = self.whole - self.left - self.removed - self.crumbs
-        sentence = "What is undermined falls as a body of its own pixels; none is lost."
+        sentence = "What is undermined falls, and pixels are lost."
         unit = f"pieces came loose, {lost} pixels lost"
-        return Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
+        headline = Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
+        return headline.asks("What is undermined falls as a body of its own pixels: is none lost?")
 
     def finding(self):
         """Return a sentence on the last carve: the number of tiles of the ground that it rebuilt.

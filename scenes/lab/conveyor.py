@@ -307,10 +307,9 @@ class Conveyor(Scene):
         belt = max(self.worst, key=lambda name: self.worst[name])
         good = len(self.last) < len(BELTS) or self.worst[belt] <= ALLOWED
         sentence = f"At {speed:.0f} px/s crates do not reach the speed of every belt."
-        if good:
-            sentence = f"Do crates reach the {speed:.0f} px/s of every belt?"
         number, unit = f"{100 * self.worst[belt]:.1f} %", f"off at most, on the belt {belt}"
-        return Headline(sentence, "left: slower", number, unit, len(self.last), len(BELTS), "belts", good)
+        headline = Headline(sentence, "left: slower", number, unit, len(self.last), len(BELTS), "belts", good)
+        return headline.asks(f"Do crates reach the {speed:.0f} px/s of every belt?")
 
     def finding(self):
         """Return a sentence with the error of the crates' speed, as a percentage of the belt's speed.

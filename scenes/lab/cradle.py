@@ -285,13 +285,12 @@ class Cradle(Scene):
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
         strikers, gap = int(self.values["strikers"]), int(self.values["gap"])
-        found = self.results.get(("projection", strikers, gap))
         fast = sum(abs(body.velocity[0]) > SPEED / 2 for body in self.balls[0])
-        sentence = f"As many balls should leave as came; balls {gap} px apart confuse projection."
-        if found is not None and found[0] < SEEN:
-            sentence = f"As many balls leave as came while gaps of {gap} px keep collisions apart."
         number, good = f"{fast} of {strikers}", fast == strikers
-        return Headline(sentence, "right: a gap", number, "balls leave (top)", int(self.struck(0)), 1, "strikes", good)
+        sentence = f"As many balls should leave as came; balls {gap} px apart confuse projection."
+        struck = int(self.struck(0))
+        headline = Headline(sentence, "right: a gap", number, "balls leave (top)", struck, 1, "strikes", good)
+        return headline.asks(f"Do as many balls leave as came, with gaps of {gap} px?")
 
     def finding(self):
         """Return a sentence with the error of each channel's speeds before a ball reaches the right wall, and its step

@@ -59,6 +59,7 @@ class Disagreement(Shooter):
     tiers = ("pixels",)
     sliders = ()
     keeps = {"broadphase": "the shooter's own: over its whole stage, with a boss's 1,500 bullets, the two are level"}
+    hits_of = "your plane's hits:"
     head = HEAD
     field = pygame.Rect(0, HEAD, SIDE.x, SIDE.height)
     ranked_by = None
@@ -123,7 +124,8 @@ class Disagreement(Shooter):
             self._draw_row(canvas, tier, TOP + row * ROW)
         self._draw_curves(canvas)
         hits = self.reference.missed[FIRST].total
-        canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
+        words = f"all sprites: {hits:,} true hits in {self.reference.moments:,} moments"
+        canvas.text(words, SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
         """Draw the row of one collision tier: its wrong hits as a bar, and its missed hits.
@@ -203,10 +205,9 @@ class Disagreement(Shooter):
         lit = self.reference.lit
         wrong, name = self.reference.wrong[lit], NAMES.get(lit, lit)
         sentence = f"The {name} reports hits where no pixel is shared."
-        if not wrong.count:
-            sentence = f"Does the {name} report hits where no pixel is shared?"
-        number, unit = f"{wrong.count} of {wrong.total}", "reported hits are false"
-        return Headline(sentence, "wheel: shape", number, unit, wrong.total, 1, "hits", not wrong.count)
+        number, unit = f"{wrong.count} of {wrong.total}", "hits among all sprites are false"
+        headline = Headline(sentence, "wheel: shape", number, unit, wrong.total, 1, "hits", not wrong.count)
+        return headline.asks(f"Does the {name} report hits where no pixel is shared?")
 
     def finding(self):
         """Return a sentence with the share of wrong hits of the chosen collision tier, with its confidence interval."""

@@ -179,6 +179,11 @@ class Dominoes(Scene):
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
 
+    def error(self):
+        """Return how far the ratio of the waves' speeds is from Froude's rule, as a share of it; None while unknown."""
+        ratio = self.ratio()
+        return None if ratio is None else abs(ratio / FROUDE - 1.0)
+
     @property
     def offer(self):
         """Text that offers the player a new run once both waves have passed; "" otherwise."""
@@ -199,10 +204,10 @@ class Dominoes(Scene):
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
             self._draw_words(canvas, index)
-        ratio = self.ratio()
+        ratio, error = self.ratio(), self.error()
         plate(canvas, (352, 142, 124, 30))
         canvas.text("large : small", 358, 146, FOG, SMALL)
-        right = abs(ratio - 2.0) < 0.04 if ratio else True
+        right = error is None or error < ALLOWED
         canvas.text(f"{ratio:.3f}" if ratio else "-", 470, 146, GREEN if right else RED, align="right")
         canvas.text("Froude: sqrt(4) =", 358, 159, FOG, SMALL)
         canvas.text("2.000", 470, 158, PAPER, align="right")
@@ -241,7 +246,7 @@ class Dominoes(Scene):
         No domino falls before the push, all fall afterwards, and the large row's wave is twice as fast as the small
         row's.
         """
-        ratio = self.ratio()
+        error = self.error()
         angles = [[body.angle for body in row] for row in self.rows]
         least = min(min(row) for row in angles)
         return [
@@ -255,24 +260,24 @@ class Dominoes(Scene):
             Goal(
                 "four times the size, twice the speed, within 2 %",
                 540,
-                ratio is not None and abs(ratio - FROUDE) < ALLOWED * FROUDE,
-                f"{ratio:.4f}" if ratio else "not there yet",
+                error is not None and error < ALLOWED,
+                "not there yet" if error is None else f"off by {100 * error:.1f} %",
             ),
         ]
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        ratio, count = self.ratio(), sum(len(row) for row in self.passed)
-        scaled = ratio is None or abs(ratio - FROUDE) < ALLOWED * FROUDE
+        error, count = self.error(), sum(len(row) for row in self.passed)
         steps = count_text(int(self.values["substeps"]), "substep")
-        sentence = "Four times as large: does the row fall twice as fast?"
-        if not scaled:
-            sentence = f"At {steps} a row four times as large is not twice as fast."
         fallen = sum(at is not None for row in self.passed for at in row)
-        seen = count if ratio is not None else min(fallen, count - 1)
-        number = "" if ratio is None else f"{ratio:.3f} x"
-        unit = "the speed of the small row"
-        return Headline(sentence, "up: more substeps", number, unit, seen, count, "dominoes", scaled)
+        seen = count if error is not None else min(fallen, count - 1)
+        number, scaled = "", True
+        if error is not None:
+            number, scaled = f"{100 * error:.1f} %", error < ALLOWED
+        sentence = f"At {steps} a row four times as large misses twice the speed."
+        unit = "off twice the small row's speed"
+        headline = Headline(sentence, "up: more substeps", number, unit, seen, count, "dominoes", scaled)
+        return headline.asks("Four times as large: does the row fall twice as fast?")
 
     def finding(self):
         """Return a sentence with the measured ratio of the waves' speeds, and the ratio by Froude's rule."""

@@ -224,7 +224,8 @@ class EffectsLab(Scene):
         sentence = f"Without {name} (blue) the yard is another one than with it (gold)."
         number, _, unit = ("", "", "") if outcome is None else short(outcome, self.marked).partition(" ")
         seen = WINDOW if outcome is not None else min(self.since, WINDOW)
-        return Headline(sentence, "Space: off and on", number, f"{unit} after two seconds", seen, WINDOW, "steps")
+        headline = Headline(sentence, "Space: off and on", number, f"{unit} after two seconds", seen, WINDOW, "steps")
+        return headline.asks(f"Is the yard without {name} (blue) another one than with it (gold)?")
 
     def finding(self):
         """Return a sentence with the effects that change positions most, cost most time and save most time.

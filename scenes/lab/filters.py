@@ -241,13 +241,12 @@ class Filters(Scene):
         a, b = KINDS[row], KINDS[column]
         overlaps, contacts = int(self.overlaps[row, column]), int(self.contacts[row, column])
         yes = self.says_yes(row, column) + self.says_yes(column, row)
-        sentence = f"Do {a} and {b} touch whenever they overlap?"
-        if contacts < overlaps:
-            said = ("Neither of", "Only one of", "Each of")[yes]
-            sentence = f"{said} {a} and {b} says yes: they pass through each other."
+        said = ("Neither of", "Only one of", "Each of")[yes]
+        sentence = f"{said} {a} and {b} says yes: they pass through each other."
         unit = "overlaps were contacts"
         number, good = f"{contacts} of {overlaps}", contacts == overlaps
-        return Headline(sentence, "Space: switch", number, unit, overlaps, 1, "overlaps", good)
+        headline = Headline(sentence, "Space: switch", number, unit, overlaps, 1, "overlaps", good)
+        return headline.asks(f"Do {a} and {b} touch whenever they overlap?")
 
     def finding(self):
         """Return a sentence with the number of overlapping pairs that the filter dropped in the last step.

@@ -266,7 +266,8 @@ class Joints(Scene):
         name, exact = self.machine.name.capitalize(), self.tiers_shown[1]
         sentence = f"{name}: solved iteratively, loaded joints gape; {exact}, they close."
         number, unit = f"{gap_text(loose)} px", f"widest gap; {exact} {gap_text(tight)} px"
-        return Headline(sentence, "up down: solver", number, unit, self.since, KEPT, "steps", loose < FINE)
+        headline = Headline(sentence, "up down: solver", number, unit, self.since, KEPT, "steps", loose < FINE)
+        return headline.asks(f"{name}: do loaded joints gape if they are solved iteratively?")
 
     def finding(self):
         """Return a sentence with two figures for each joint solver: the widest gap of a joint, and the time of a step.

@@ -323,7 +323,9 @@ class MaskStack(Scene):
         seen = sum((name, "box") in self.fits for name, _, _ in laid)
         air = 0.0 if seen < len(laid) else self.share("box")[1]
         sentence = "In their boxes sprites rest on air; by their outlines they fit."
-        return Headline(sentence, "left right: sprites", f"{air:.0f} px", "of air in boxes", seen, len(laid), "sprites")
+        number, unit = f"{air:.0f} px", "of air in boxes"
+        headline = Headline(sentence, "left right: sprites", number, unit, seen, len(laid), "sprites")
+        return headline.asks("Do sprites in their boxes rest on each other, or on air?")
 
     def finding(self):
         """Return a sentence with the air, the corners and the sag of the piles of boxes, outlines and exact pixels."""

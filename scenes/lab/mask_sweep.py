@@ -303,11 +303,11 @@ class MaskSweep(Scene):
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
-        do = "" if passed["off"] else "do "
-        sentence = f"At {float(self.values['speed']) / 60:.0f} px a step, {do}unswept sprites pass walls of one pixel"
-        sentence += "?" if do else "."
+        step = f"At {float(self.values['speed']) / 60:.0f} px a step,"
+        sentence = f"{step} unswept sprites pass walls of one pixel."
         number, unit = f"{passed['off']} of {met['off']}", f"passed; swept, {passed['toi']} of {met['toi']}"
-        return Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
+        headline = Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
+        return headline.asks(f"{step} do unswept sprites pass walls of one pixel?")
 
     def finding(self):
         """Return a sentence with the number of shots that passed the walls, without sweep and with sweep.

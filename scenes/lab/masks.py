@@ -219,8 +219,10 @@ class Masks(Scene):
                 self.steps > 0 and self.wrong == 0,
                 f"{self.wrong} of {self.steps} steps differ",
             ),
-            Goal("planes seen apart", 240, self.apart > 0, f"{self.apart} steps"),
-            Goal("planes seen hitting", 240, self.hits > 0, f"{self.hits} steps"),
+            Goal(
+                "planes so far apart that no shape says hit", 240, self.apart > 0, f"{self.apart} steps", self.apart > 0
+            ),
+            Goal("planes seen sharing a pixel", 240, self.hits > 0, f"{self.hits} steps", self.hits > 0),
             *(
                 Goal(
                     f"the {NAMES.get(tier, tier)} says hit where no pixel is shared",
@@ -236,10 +238,9 @@ class Masks(Scene):
         """Return the Headline: the sentence and the number in the scene's title line."""
         wrong = sum(hit and not self.verdicts["pixels"] for hit in self.verdicts.values())
         sentence = "No pixel is shared, yet simple shapes report a hit."
-        if self.verdicts["pixels"]:
-            sentence = "The planes share pixels: now every shape that reports a hit is right."
-        unit = "shapes report a false hit"
-        return Headline(sentence, "arrows: move", f"{wrong} of {len(TIERS)}", unit, self.steps, 1, "steps", not wrong)
+        unit, number = "shapes report a false hit", f"{wrong} of {len(TIERS)}"
+        headline = Headline(sentence, "right: move", number, unit, self.steps, 1, "steps", not wrong)
+        return headline.asks("Does any shape report a hit where no pixel is shared?")
 
     def finding(self):
         """Return a sentence with the share of the box's hits that are false, and two times of a test that hits.

@@ -185,9 +185,11 @@ class Pyramid(Scene):
         """Return the Headline: the sentence and the number in the scene's title line."""
         fallen = max(self.top.position[1] - self._built_at()[1], 0.0) / SIZE
         name = plain_name(SOLVERS[int(self.values["solver"])])
-        sentence = f"{name[:1].upper()}{name[1:]} has to hold {self.crates} crates: how far does the top sink?"
+        name = name[:1].upper() + name[1:]
         unit, good = "crates lower than built", fallen < SUNK
-        return Headline(sentence, "X: solver", f"{fallen:.2f}", unit, self.since, 60, "steps", good)
+        sentence = f"{name} does not hold a pyramid of {self.crates} crates: the top sinks."
+        headline = Headline(sentence, "X: solver", f"{fallen:.2f}", unit, self.since, 60, "steps", good)
+        return headline.asks(f"{name} has to hold {self.crates} crates: does the top sink?")
 
     def finding(self):
         """Return a sentence with the cost and error of the current setting.

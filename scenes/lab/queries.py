@@ -32,7 +32,7 @@ from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
 from game.scene import FAIR, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
-from scenes.lab.costs import cost_text
+from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
 from scenes.lab.query_calls import angle_of, ask, rows_of
@@ -64,6 +64,7 @@ SHAPES = (
 RING = PixelMask.from_array((DISC < 8.0) & (DISC > 4.0))
 RING_EVERY = 13  # shapes per ring of pixels
 ORIGIN, CLEAR = (0.06 * WIDTH, 0.3 * HEIGHT), 60.0  # [px] start of rays, and the space around it that is empty at first
+AWAY = 40.0  # [px] distance from the start of rays at which bodies turn back
 SHOWN = 24  # hits that are drawn with normal and fraction
 EACH = 84  # steps per query of the bot
 PLACES = 200  # places per timed run: five runs make a thousand
@@ -89,7 +90,7 @@ class Queries(Scene):
     sliders = (
         Slider("query", 0, len(QUERIES) - 1, 0, choices=QUERIES),
         Slider("size", 4, 80, 16, "px", step=4),
-        Slider("bodies", 60, 2000, 260, step=20),
+        Slider("bodies", 60, 2000, 600, step=20),
     )
     lighter = {"bodies": 60}
     actions = (
@@ -143,6 +144,7 @@ class Queries(Scene):
         self.looks = [Looks(world, self.camera) for world in self.worlds]
         self.answer = []  # (body id, x, y, normal x, normal y, fraction): see ask()
         self.work = {name: (0, 0) for name in STRATEGIES}  # nodes or cells, boxes compared
+        self.parts = 1  # query boxes into which the query was cut: brute force compares each with every shape
         self._forget()
 
     def _forget(self):
@@ -183,13 +185,14 @@ class Queries(Scene):
                 self.origin = place
         answers = []
         for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
-            bounce(world)
+            bounce(world, self.origin)
             world.step()
             answers.append(rows_of(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
             counters = world.queries.counters
             self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
             self.looked[strategy] += sum(self.work[strategy])
             self.usual[strategy].note(sum(self.work[strategy]))
+        self.parts = max(1, len(self.worlds[-1].queries.asked))
         self.answer = answers[0]
         self.asked += 1
         self.found += len(self.answer)
@@ -254,7 +257,10 @@ class Queries(Scene):
         if self.query == "closest":
             return f"{self.answer[0][5]:.1f} px away" if self.answer else "none"
         if self.query in ("ray", "cast"):
-            return f"at {self.answer[0][5]:.3f}" if self.answer else "nothing"
+            if not self.answer:
+                return "nothing"
+            share = self.answer[0][5]
+            return f"after {100 * share:.0f} % of its way" if share > 0.0 else "it starts inside a shape"
         return f"{len(self.answer)} found"
 
     def draw_on_frame(self, frame):
@@ -377,11 +383,16 @@ class Queries(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        shown = STRATEGIES[self.shown]
-        how = "brute force looks at every box" if shown == "brute" else f"the {shown} skips most boxes"
-        sentence = f"One query, {self.query}, among {int(self.values['bodies']):,} shapes: {how}."
-        number, unit = f"{sum(self.work[shown]):,}", "boxes and nodes visited"
-        return Headline(sentence, "up down: broad phase", number, unit, self.asked, 1, "queries", shown != "brute")
+        shown, bodies, parts = STRATEGIES[self.shown], int(self.values["bodies"]), self.parts
+        looked, whole = sum(self.work[shown]), bodies * parts
+        cut = "" if parts == 1 else f" in {parts} parts"
+        by = "brute force" if shown == "brute" else f"the {shown}"
+        asked = f"{self.query.capitalize()}{cut} among {bodies:,} shapes"
+        sentence = f"{asked}: {by} visits them all."
+        unit = f"boxes and nodes visited, of {whole:,} boxes"
+        good = looked < whole
+        headline = Headline(sentence, "down: the tree", f"{looked:,}", unit, self.asked, 1, "queries", good)
+        return headline.asks(f"{asked}: does {by} visit them all?")
 
     def finding(self):
         """Return a sentence with the number of boxes and nodes that each broad phase visits for this query.
@@ -393,6 +404,9 @@ class Queries(Scene):
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
         among = f"{self.query} among {self.values['bodies']:,} shapes: {looks}, brute force at"
         sentence = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
+        costs = [cost_of(self, self._run_name(name)) for name in STRATEGIES]
+        if None not in costs:
+            sentence += f"; a query takes {1e6 * min(costs):,.0f} to {microseconds(max(costs))} in the four"
         return f"{sentence}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
@@ -434,9 +448,18 @@ class Queries(Scene):
 PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", "brute": "nodes"}
 
 
-def bounce(world):
-    """Reflect the bodies that have left the picture: reverse the velocity component that leads them further away."""
+def bounce(world, origin):
+    """Reflect the bodies that have left the picture: reverse the velocity component that leads them further away.
+
+    Bodies also turn back before they cover `origin` (x, y) [px], the start of rays and casts.
+    """
     bodies = world.bodies
+    dx, dy = bodies["x"] - origin[0], bodies["y"] - origin[1]
+    towards = dx * bodies["vx"] + dy * bodies["vy"]
+    near = (np.hypot(dx, dy) < AWAY) & (towards < 0.0)
+    turn = 2.0 * towards[near] / np.maximum(dx[near] ** 2 + dy[near] ** 2, 1.0)
+    bodies["vx"][near] -= turn * dx[near]
+    bodies["vy"][near] -= turn * dy[near]
     for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
         outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))
         bodies[speed][outwards] *= -1.0

@@ -361,10 +361,9 @@ class Sensors(Scene):
         due, unseen = sum(self.due.values()), sum(self.unseen.values())
         step = max(self.values["speed"], self.values["scanner"]) / 60
         sentence = f"At {step:.0f} px a step, entries fall between two steps; sweeping finds them."
-        if not unseen:
-            sentence = f"At {step:.0f} px a step, do entries fall between two steps?"
-        unit = "entries unseen where bodies stand"
-        return Headline(sentence, "left: slower", f"{unseen} of {due}", unit, due, ENOUGH, "entries", not unseen)
+        number, unit = f"{unseen} of {due}", "entries unseen where bodies stand"
+        headline = Headline(sentence, "left: slower", number, unit, due, ENOUGH, "entries", not unseen)
+        return headline.asks(f"At {step:.0f} px a step, do entries fall between two steps?")
 
     def finding(self):
         """Return a sentence with the numbers of missed and false entries, and the greatest motion of a detected body

@@ -345,12 +345,12 @@ class Shapes(Scene):
                 f"{step['phase'].upper()} stopped after round {index + 1} of {count} is wrong about the distance."
             )
             unit = "off the answer of the last round"
-            return Headline(sentence, "Enter: next round", f"{off:.3g} px", unit, self.compared, 1, "answers")
+            headline = Headline(sentence, "Enter: next round", f"{off:.3g} px", unit, self.compared, 1, "answers")
+            return headline.asks("How many rounds does GJK need to find the distance?")
         sentence = "SAT, GJK and the contact disagree about the same two shapes."
-        if not wrong:
-            sentence = "SAT, GJK and the contact answer for the same two shapes: do they agree?"
         unit = f"of {self.compared:,} answers differ"
-        return Headline(sentence, "Enter: step", f"{wrong}", unit, self.compared, ENOUGH, "answers", not wrong)
+        headline = Headline(sentence, "Enter: step", f"{wrong}", unit, self.compared, ENOUGH, "answers", not wrong)
+        return headline.asks("SAT, GJK and the contact answer for the same two shapes: do they agree?")
 
     def finding(self):
         """Return a sentence with the number of compared poses, and the greatest difference between the methods."""

@@ -338,7 +338,8 @@ class Sleeping(Scene):
         """Return the Headline: the sentence and the number in the scene's title line."""
         sentence = "Heaps cost time until they sleep; a ball wakes what it meets."
         number, unit = f"{self.awake} of {self.awake + self.asleep}", "bodies awake and stepped"
-        return Headline(sentence, "Space: a ball", number, unit, self.since, 1, "steps", not self.awake)
+        headline = Headline(sentence, "Space: a ball", number, unit, self.since, 1, "steps", not self.awake)
+        return headline.asks("All heaps sleep: does a ball wake more than it meets?")
 
     def finding(self):
         """Return a sentence with the number of awake bodies, the times of a step asleep and awake, and the woken

@@ -222,6 +222,7 @@ class Stacks(Scene):
                 300,
                 self.stands(soft) and self.nudged > 0,
                 f"{self.standing[soft]} of {self.since} steps",
+                measured=self.nudged > 0,
             ),
             Goal(
                 "left alone it sways by less than a fiftieth of a crate",
@@ -251,17 +252,18 @@ class Stacks(Scene):
                 "projection falls, or sinks three times as far",
                 300,
                 not self.stands(pushed) or self.sag[pushed] > 3 * abs(self.sag[soft]),
-                f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:z.2f} px",
+                f"{'stands' if self.stands(pushed) else 'fell'}, sinks {self.sag[pushed]:z.2f} px",
             ),
         ]
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
         lost = max(self.sag["projection"] / (self.values["crates"] * SIZE), 0.0)
-        unit, good = "of its height lost", self.stands_now(0)
-        does = "does its column of crates stand?" if good else "its column of crates falls."
-        sentence = f"Projection only pushes overlaps apart: {does}"
-        return Headline(sentence, "left: fewer", f"{100 * lost:.0f} %", unit, self.since, SETTLED, "steps", good)
+        good = lost < 1.0 / self.values["crates"]  # less than a crate
+        sentence = "Projection only pushes overlaps apart: its column of crates falls."
+        unit = "of its height lost"
+        headline = Headline(sentence, "left: fewer", f"{100 * lost:.0f} %", unit, self.since, SETTLED, "steps", good)
+        return headline.asks("Projection only pushes overlaps apart: does its column of crates stand?")
 
     def finding(self):
         """Return a sentence with the sag and sway of each column, and the time of a step."""

@@ -348,10 +348,9 @@ class Tunnelling(Scene):
         missed, ended = self.missed[kind, "off"], self.hit[kind, "off"] + self.missed[kind, "off"]
         what = "each other" if kind == "bullets" else f"a plate of {self.values['plate']} px"
         sentence = f"Unswept, at {step:.0f} px a step, {kind} pass {what}."
-        if not missed:
-            sentence = f"Unswept, at {step:.0f} px a step, do {kind} pass {what}?"
         number, unit = f"{missed} of {ended}", "went through (lane off)"
-        return Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
+        headline = Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
+        return headline.asks(f"Unswept, at {step:.0f} px a step, do {kind} pass {what}?")
 
     def finding(self):
         """Return a sentence with two figures for each lane: the missed shots, and the time of a step.

@@ -95,6 +95,8 @@ def _draw_hits(canvas, scene):
     """Draw the numbers of hits on the player's core, hull and bounding box. The part that can be hurt is gold."""
     ui, y, x = load_atlas("ui"), scene.field.bottom - 14, scene.field.left + MARGIN
     counts = scene.own_hits
+    if scene.hits_of:
+        x = canvas.text(scene.hits_of, x, y + 2, PAPER, SMALL, outline=True).right + 7
     for part in ("core", "hull"):
         canvas.surface.blit(ui[f"icon_{part}"], (x, y))
         color = GOLD if part == scene.hurts else PAPER

@@ -56,6 +56,7 @@ class Shooter(Scene):
     tiers = ("pixels", "obb", "aabb", "circle")
     broadphase = "sweep"  # bullets are spread over the whole sky: four times as fast as a grid with 1,500 of them
     sliders = (Slider("hurts", 0, 1, 0, choices=("core", "hull")),)
+    hits_of = ""  # words before the numbers of hits, where the picture shows other hits too
     music = "shooter"
     field = pygame.Rect((0, 0), CANVAS_SIZE)  # part of the canvas that shows the game, for its texts and icons
     ranked_by = "points"

@@ -100,7 +100,7 @@ def test_its_words_fit_with_every_value_of_the_sliders(name):
         ("lab/masks", 10, "false hit"),
         ("lab/shapes", 5, "off the answer"),
         ("lab/filters", 200, "overlaps were contacts"),
-        ("lab/dominoes", 330, "speed of the small row"),
+        ("lab/dominoes", 330, "small row's speed"),
         ("lab/conveyor", 330, "off at most, on the belt"),
     ],
 )
@@ -182,7 +182,7 @@ def test_a_sentence_claims_only_what_the_number_shows(name, values, fails):
     play = Play(scene, DeviceSource(), Silent())
     for _ in range(60 if name == "lab/disagreement" else 400):
         headline = scene.headline()
-        assert headline.sentence.endswith("?") == headline.good, headline
+        assert headline.sentence.endswith("?") == (headline.good or not headline.known), headline
         play.step()
     assert fails is None or headline.good != fails, headline
 

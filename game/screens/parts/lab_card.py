@@ -126,8 +126,7 @@ class LabCard:
         while left:
             goal = left[0]
             mark = GREEN if goal.met else SLATE if self._waits(goal) else ORANGE
-            words = f"{goal.name}: {goal.detail}" if goal.detail else goal.name
-            wrapped = wrap(words, width - 2 * MARK * scale, SMALL, scale)
+            wrapped = wrap(goal.text, width - 2 * MARK * scale, SMALL, scale)
             more = [Line(text, PAPER, mark=FOLLOWS if number else mark) for number, text in enumerate(wrapped)]
             last = Line(f"{len(left)} more", FOG)
             if height_of([*lines, *more, *([last] if len(left) > 1 else [])]) > room:
@@ -136,7 +135,7 @@ class LabCard:
         return lines
 
     def _waits(self, goal):
-        return not goal.met and self.scene.frame < goal.due
+        return goal.waits(self.scene.frame)
 
 
 class CardText(NamedTuple):

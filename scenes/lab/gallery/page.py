@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from game.measure.measured_runs import RunFigures
+from game.measure.rates import Rate
 from physics import Effects, Polygon, World
 from physics.annotations import JointSolverName
 
@@ -92,6 +93,7 @@ class Page:
     glance: int = 20  # frames of the bot's first look
     larger: Larger | None = None
     also: Callable[["Side"], str] | None = None  # a second figure, as text
+    rate: Callable[["Side"], Rate] | None = None  # the error as a number of cases, where it is a percentage of them
 
 
 class Side:

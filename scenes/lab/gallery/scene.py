@@ -36,6 +36,7 @@ from scenes.lab.piles import SOLVERS, step_seconds
 from scenes.lab.yard import HEAD
 
 NAMES = tuple(page.name for page in PAGES)
+SIDES = ("left", "right")
 VIEWS = ((4, 18, 234, 160), (242, 18, 234, 160))
 COLORS = (ORANGE, GREEN)
 PLOT = (116, 192, 118, 40)  # of the left side; the other's is offset like its view
@@ -75,8 +76,11 @@ class Gallery(Scene):
     )
     solvers = SOLVERS
     keeps = {"solver": "each page names its two ways to solve itself: they are what is compared"}
-    sliders = (Slider("page", 0, len(PAGES) - 1, 0, choices=NAMES),)
-    actions = (("left right", "page"), ("Space", "again"))
+    sliders = (
+        Slider("page", 0, len(PAGES) - 1, 0, choices=NAMES),
+        Slider("side", 0, 1, 0, choices=SIDES),  # the one whose error is in the title line
+    )
+    actions = (("left right", "page"), ("Space", "again"), ("X", "other side"))
     head = HEAD
     legend_at = (6, 20)
 
@@ -117,9 +121,10 @@ class Gallery(Scene):
         return PAGES[int(self.values["page"])]
 
     def change_slider(self, name, value):
-        """Set the slider "page", and open the selected page from its start."""
+        """Set the slider `name` to `value`. A new page is opened from its start."""
         super().change_slider(name, value)
-        self.open()
+        if name == "page":
+            self.open()
 
     def update(self, inputs):
         """Process keys, step both worlds, and read their errors."""
@@ -128,6 +133,8 @@ class Gallery(Scene):
             self.change_slider("page", (self.values["page"] + turn) % len(PAGES))
         if inputs.pressed("fire"):
             self.open()
+        if inputs.pressed("bomb"):
+            self.change_slider("side", 1 - self.values["side"])
         for side in self.sides:
             side.step()
         for side, errors in zip(self.sides, self.errors, strict=True):
@@ -190,8 +197,10 @@ class Gallery(Scene):
         canvas.text(side.way.name, x + 2, 182, COLORS[index])
         judged = side.steps >= page.steps
         canvas.text(amount(side.error), x + 2, 194, RED if not held else GREEN if judged else PAPER)
-        canvas.text(page.unit, x + 2, 204, FOG, SMALL)
-        canvas.text(f"limit {amount(page.limit)}", x + 2, 212, FOG, SMALL)
+        rate = None if page.rate is None else page.rate(side)
+        canvas.text(page.unit if rate is None else f"{page.unit}, of {rate.total}", x + 2, 204, FOG, SMALL)
+        limit = f"limit {amount(page.limit)}" if rate is None else f"limit {amount(page.limit)}; {interval(rate)}"
+        canvas.text(limit, x + 2, 212, FOG, SMALL)
         if side.way.step is None:
             canvas.text(f"{self.costs[index].value:,.0f} us a step", x + 2, 221, GOLD, SMALL)
         else:
@@ -269,12 +278,25 @@ class Gallery(Scene):
         naive, ours = self.verdicts[page.name]
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
+    def _error(self, side):
+        """Return the error of a side as text: a number, or the cases out of all with the interval of their share."""
+        if self.page.rate is None:
+            return amount(side.error)
+        rate = self.page.rate(side)
+        return f"{rate.count} of {rate.total} ({interval(rate)})"
+
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        page, naive = self.page, self.sides[0]
-        sentence = f"{page.title}: {naive.way.name} at the left."
-        mend = f"left right: page {int(self.values['page']) + 1} of {len(PAGES)}"
-        return Headline(sentence, mend, amount(naive.error), page.unit, naive.steps, ENOUGH, "steps", naive.holds)
+        page, at = self.page, int(self.values["side"])
+        side = self.sides[at]
+        number, unit, seen, of = amount(side.error), page.unit, side.steps, "steps"
+        if page.rate is not None:
+            rate = page.rate(side)
+            number, unit = f"{rate.count} of {rate.total}", f"{page.unit.removeprefix('% ')} ({interval(rate)})"
+            seen, of = rate.total, "shots"
+        sentence = f"{page.title}: {side.way.name} fails."
+        headline = Headline(sentence, f"X: the {SIDES[1 - at]} side", number, unit, seen, ENOUGH, of, side.holds)
+        return headline.asks(f"{page.title}: does {side.way.name} hold?")
 
     def finding(self):
         """Return a sentence with both errors on this page so far, and the number of pages that had the expected
@@ -284,14 +306,16 @@ class Gallery(Scene):
         if not naive.steps:
             return "not yet: the page has to be stepped"
         page = self.page
-        errors = ", ".join(f"{side.way.name} {amount(side.error)}" for side in (naive, ours))
-        sentence = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
+        errors = ", ".join(f"{side.way.name} {self._error(side)}" for side in (naive, ours))
+        unit = page.unit if page.rate is None else page.unit.removeprefix("% ")
+        sentence = f"{page.title}, step {naive.steps}: {errors} {unit}"
         met = sum(is_met(page, *self.verdicts[page.name]) for page in PAGES if page.name in self.verdicts)
         judged = f"; {met} of {len(self.verdicts)} judged pages came out as expected" if self.verdicts else ""
         full = [found for side in self.sides if (found := self.larger(side)) is not None]
         if len(full) == len(self.sides) and page.larger is not None:
             sentence += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
-        return f"{sentence}, limit {amount(page.limit)}{judged}"
+        limit = f"limit {amount(page.limit)}{'' if page.rate is None else ' %'}"
+        return f"{sentence}, {limit}{judged}"
 
     def bot(self):
         """Return the bot's input for the next step.
@@ -310,7 +334,7 @@ class Gallery(Scene):
         """Return the scene's part of the state hash, a flat tuple: the page, its errors and all verdicts."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
-        return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
+        return (self.frame, *self.values.values(), *sides, *self.verdicts, *verdicts)
 
 
 def is_met(page, naive, ours):
@@ -318,6 +342,12 @@ def is_met(page, naive, ours):
     expects.
     """
     return ours <= page.limit and (naive <= page.limit) == page.alike
+
+
+def interval(rate):
+    """Return the 95 % confidence interval of a Rate as short text, for example "78 to 95 %"."""
+    low, high = rate.interval
+    return f"{100 * low:.0f} to {100 * high:.0f} %"
 
 
 def amount(value):

@@ -5,6 +5,7 @@ In all functions, `side` is a Side: one of the page's two worlds while it runs.
 
 import numpy as np
 
+from game.measure.rates import Rate
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.gallery.page import LAST, Page, Way
 
@@ -75,6 +76,11 @@ def through(side):
     A missed shot is one that did not hit a body that it had to hit. side: one of the page's two worlds (page.Side).
     """
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
+
+
+def shots(side):
+    """Return the Rate of missed shots among all shots that have ended. side: one of the page's two worlds."""
+    return Rate(side.kept["through"], side.kept["fired"])
 
 
 def build_rods(side):
@@ -192,6 +198,7 @@ PAGES = (
         FIELD,
         act=shoot,
         judged=LAST,
+        rate=shots,
     ),
     Page(
         "rods",
@@ -209,6 +216,7 @@ PAGES = (
         FIELD,
         act=spin,
         judged=LAST,
+        rate=shots,
     ),
     Page(
         "bullets",
@@ -226,6 +234,7 @@ PAGES = (
         FIELD,
         act=duel,
         judged=LAST,
+        rate=shots,
     ),
     Page(
         "beam",
@@ -243,5 +252,6 @@ PAGES = (
         FIELD,
         act=cross,
         judged=LAST,
+        rate=shots,
     ),
 )
