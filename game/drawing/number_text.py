@@ -1,5 +1,9 @@
 """Times, points, counts and names as text, in one format for the whole program."""
 
+ROUNDING = 1e-9  # relative errors, and lengths [px], below this are those of rounding
+SMALLEST = 0.001  # [%, px] smaller values are not written in digits
+TIER_WORDS = {"aabb": "box", "obb": "turned box", "mask": "exact"}
+
 
 def clock(seconds: float) -> str:
     """Return a time [s] as text: 1:05.32 for 65.32 s. Hours are shown from one hour on."""
@@ -25,6 +29,36 @@ def points_text(points: int) -> str:
 def plain_name(name: str) -> str:
     """Return the name of a solver, stage or counter with spaces: "sequential impulse" for sequential_impulse."""
     return name.replace("_", " ")
+
+
+def tier_name(tier: str) -> str:
+    """Return the name of a collision tier in plain words: "box" for aabb, "turned box" for obb, "exact" for mask."""
+    return TIER_WORDS.get(tier, tier)
+
+
+def share_text(share: float) -> str:
+    """Return a share as a percentage in plain digits: "3.5 %", "0.015 %", "under 0.001 %".
+
+    Rounding errors are "0 %".
+    """
+    percent = 100.0 * share
+    if abs(share) < ROUNDING:
+        return "0 %"
+    if abs(percent) < SMALLEST:
+        return f"under {SMALLEST} %"
+    return f"{percent:.1f} %" if abs(percent) >= 1.0 else f"{percent:.3f}".rstrip("0").rstrip(".") + " %"
+
+
+def error_text(share: float) -> str:
+    """Return a relative error in words: "off by 3.5 %", or that it is too small to be told from rounding."""
+    return "no error that can be told" if abs(share) < ROUNDING else f"off by {share_text(share)}"
+
+
+def gap_text(pixels: float) -> str:
+    """Return a difference of lengths [px] in words: "0.012 px", "under 0.001 px", "no difference that can be told"."""
+    if abs(pixels) < ROUNDING:
+        return "no difference that can be told"
+    return f"{pixels:.3f} px" if abs(pixels) >= SMALLEST else f"under {SMALLEST} px"
 
 
 def count_text(number: int, what: str) -> str:

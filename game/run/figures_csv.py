@@ -8,6 +8,7 @@ import io
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from game.drawing.number_text import plain_name, tier_name
 from game.measure.effect_totals import FIELDS, SCALES, EffectTotal
 from game.measure.machine import machine_line
 from game.measure.measured_runs import RunFigures
@@ -73,21 +74,31 @@ def figures_of(scene: Scene) -> Iterator[Figure]:
         verdict = "met" if goal.met else "pending" if goal.waits(scene.frame) else "not met"
         yield Figure("goal", goal.name, verdict, goal.detail if goal.measured else "not yet")
     if finding := scene.finding():
-        yield Figure("finding", scene.name, finding)
+        yield Figure("finding", scene.title, finding)
     for part, count in scene.own_hits.items():
         yield Figure("own hits", part, count, "hits")
     for name, figures in scene.figures.items():
         if isinstance(figures, RunFigures):
-            yield from _run_figures(_name_of(name), figures)
+            yield from _run_figures(_name_of(scene, name), figures)
         elif isinstance(figures, TierFigures):
             yield from _tier_figures(figures)
     for name, total in scene.totals.items():
         yield from _totals(name, total)
 
 
-def _name_of(name):
-    """Return the name of a measured run as text: the parts of the name, separated by blanks."""
-    return " ".join(map(str, name)) if isinstance(name, tuple) else f"{name}"
+def _name_of(scene, name):
+    """Return the name of a measured run of the scene as text: its parts in plain words, separated by commas.
+
+    The values of the sliders and switches, with which many names begin, get their own names.
+    """
+    if not isinstance(name, tuple):
+        return plain_name(f"{name}")
+    chosen, words, count = scene.chosen, [], len(scene.values)
+    if name[: len(chosen)] == chosen:
+        words = [f"{slider.name} {slider.show(scene.values[slider.name])}" for slider in scene.sliders]
+        name = *chosen[count:-1], "" if chosen[-1] else "boxes only", *name[len(chosen) :]
+    words += [tier_name(plain_name(f"{part}")) for part in name if part not in (None, "")]
+    return ", ".join(words)
 
 
 def _timed(of, name, cost: Cost, unit="us", scale=1e6):
@@ -103,14 +114,14 @@ def _run_figures(name, figures):
 
 def _tier_figures(figures):
     for what, cost in (("a hit", figures.hit), ("a miss", figures.miss)):
-        yield _timed("tier", f"{figures.tier}, {what}", cost, "ns", 1e9)
-    yield _timed("tier", f"{figures.tier}, shapes made", figures.build)
+        yield _timed("tier", f"{tier_name(figures.tier)}, {what}", cost, "ns", 1e9)
+    yield _timed("tier", f"{tier_name(figures.tier)}, shapes made", figures.build)
     for what, rate in (("false hits of reported hits", figures.wrong), ("missed hits of true hits", figures.missed)):
         low, high = rate.interval
-        name = f"{figures.tier}, {what} ({rate.count} of {rate.total})"
+        name = f"{tier_name(figures.tier)}, {what} ({rate.count} of {rate.total})"
         yield Figure("tier", name, 100 * rate.share, "per 100", 100 * low, 100 * high)
     for what, value in figures.fit._asdict().items():
-        yield Figure("tier", f"{figures.tier}, fit, {what}", value)
+        yield Figure("tier", f"{tier_name(figures.tier)}, fit, {plain_name(what)}", value)
 
 
 def _totals(name, total: EffectTotal):

@@ -22,7 +22,7 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
 from game.drawing.headline import ENOUGH, Headline
-from game.drawing.number_text import count_text
+from game.drawing.number_text import count_text, error_text, share_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -283,7 +283,7 @@ class Billiards(Scene):
             ("scratches", f"{self.scratches}", PAPER),
             ("energy", f"{self.energy / 1e6:.2f}", PAPER),
             ("momentum", *momentum),
-            ("  off by", f"{self.off:.0e}" if measured else "-", PAPER if held else RED),
+            ("  off by", share_text(self.off) if measured else "-", PAPER if held else RED),
         )
         for number, (word, value, color) in enumerate(rows):
             canvas.text(word, SIDE, 106 + number * 9, FOG, SMALL)
@@ -325,14 +325,21 @@ class Billiards(Scene):
                 "momentum stays until the first cushion",
                 120,
                 self.compared >= 10 and self.kept < 1e-9,
-                f"off by {self.kept:.2e} in {self.compared} steps",
+                f"{error_text(self.kept)} in {self.compared} steps",
+                self.compared > 0,
             ),
-            Goal("no collision of two adds energy", 300, self.shots > 0 and self.grown < 1e-9, f"{self.grown:+.2e}"),
+            Goal(
+                "no collision of two adds energy",
+                300,
+                self.shots > 0 and self.grown < 1e-9,
+                share_text(self.grown),
+                self.shots > 0,
+            ),
             Goal(
                 "none of three adds more than a twentieth",
                 300,
                 self.grown_by_three < 0.05,
-                f"{self.grown_by_three:+.2e}",
+                share_text(self.grown_by_three),
             ),
             Goal("the break moves nearly every ball", 300, moved >= 14, f"{moved} of 16"),
             Goal("no ball leaves the table", 300, there),
@@ -354,10 +361,8 @@ class Billiards(Scene):
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"
-        sentence = (
-            f"in {count_text(self.compared, 'step')} before a cushion momentum was off by {self.kept:.1g} of itself"
-        )
-        return f"{sentence}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
+        sentence = f"in {count_text(self.compared, 'step')} before a cushion momentum was {share_text(self.kept)} off"
+        return f"{sentence}; a collision of two added {share_text(max(self.grown, 0.0))} of the energy at most"
 
     def bot(self):
         """Return the bot's input for the next step. The bot breaks, then plays the straightest and shortest shot."""

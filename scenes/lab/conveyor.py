@@ -21,7 +21,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
 from game.drawing.headline import Headline
-from game.drawing.number_text import count_text
+from game.drawing.number_text import count_text, share_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
@@ -322,7 +322,7 @@ class Conveyor(Scene):
         speed = float(self.values["speed"])
         off = max(abs(found - speed) for found in self.last.values()) / speed
         on = f"on {len(self.last)} of {count_text(len(BELTS), 'belt')} at {speed:.0f} px/s"
-        sentence = f"{on} the last crate was off that by {100 * off:.1g} % at most"
+        sentence = f"{on} the last crate was {share_text(off)} off that at most"
         lies = sum(start is not None for _, start in self.fallen.values())
         return (
             f"{sentence}; without the effect {count_text(lies, 'crate')} moved {self.strayed:.2f} px"

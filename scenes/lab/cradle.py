@@ -21,7 +21,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
 from game.drawing.headline import Headline
-from game.drawing.number_text import plain_name
+from game.drawing.number_text import error_text, plain_name, share_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -261,25 +261,15 @@ class Cradle(Scene):
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
-                wrong, momentum, energy = self.results.get((name, strikers, GAP), (1.0, 1.0, 1.0))
-                goals.append(Goal(f"{name}: {strikers} in, {strikers} out", due, wrong < CLEAN, f"off by {wrong:.2e}"))
-                goals.append(
-                    Goal(
-                        f"{name}, {strikers}: momentum and energy stay",
-                        due,
-                        max(momentum, energy) < CLEAN,
-                        f"{momentum:.2e}, {energy:.2e}",
-                    )
-                )
-            drift = self.drift.get((name, 1, GAP), 1.0)
-            goals.append(
-                Goal(
-                    f"{name}: with one striker energy stays for good, walls and all",
-                    SWITCH_AT,
-                    drift < CLEAN,
-                    f"{drift:.2e}",
-                )
-            )
+                key, words = (name, strikers, GAP), plain_name(name)
+                seen, (wrong, *kept) = key in self.results, self.results.get(key, (1.0, 1.0, 1.0))
+                title = f"{words}: {strikers} in, {strikers} out"
+                goals.append(Goal(title, due, wrong < CLEAN, error_text(wrong), seen))
+                title = f"{words}, {strikers}: momentum and energy stay"
+                goals.append(Goal(title, due, max(kept) < CLEAN, error_text(max(kept)), seen))
+            key = (name, 1, GAP)
+            drift, title = self.drift.get(key, 1.0), f"{words}: with one striker energy stays for good, walls and all"
+            goals.append(Goal(title, SWITCH_AT, drift < CLEAN, error_text(drift), key in self.drift))
         return goals
 
     def headline(self):
@@ -301,7 +291,7 @@ class Cradle(Scene):
             found = self.results.get((name, strikers, int(self.values["gap"])))
             if found is None:
                 return "not yet: each row has to be struck, and not dragged"
-            parts.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
+            parts.append(f"{plain_name(name)} {share_text(found[0])} ({cost_text(self, (*self.chosen, name))})")
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):

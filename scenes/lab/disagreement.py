@@ -21,6 +21,7 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, DUSK, FOG, INK, NIGHT, PAPER, RED, SLATE, faded
 from game.drawing.headline import Headline
+from game.drawing.number_text import tier_name
 from game.drawing.sprites import load_atlas
 from game.measure.reference_tier import ReferenceTier
 from game.overlays.outlines import draw_outline
@@ -191,9 +192,9 @@ class Disagreement(Shooter):
         Circles and boxes report wrong hits. Shapes that contain all pixels of a sprite miss no hit.
         """
         wrong, missed = self.reference.wrong, self.reference.missed
-        caught = [tier for tier in LIARS if wrong[tier].count]
+        caught = [tier_name(tier) for tier in LIARS if wrong[tier].count]
         all_caught = len(caught) == len(LIARS)
-        holding = [tier for tier in HOLDING if missed[tier].count]
+        holding = [tier_name(tier) for tier in HOLDING if missed[tier].count]
         return [
             Goal("true hits were seen", 1200, missed[FIRST].total > 0, f"{missed[FIRST].total}"),
             Goal("circle, box and turned box reported hits that are none", 1200, all_caught, ", ".join(caught)),

@@ -22,6 +22,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
 from game.drawing.headline import Headline
+from game.drawing.number_text import share_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measurement_requests import MeasuredRun, RunRequest
@@ -199,7 +200,7 @@ class GhostBumps(Scene):
             self.casts[index].draw(canvas, camera, self.worlds[index], alpha)
             pygame.draw.rect(canvas.surface, SLATE, view, 1)
             canvas.text(TITLES[floor], view.x + 2, view.y - 8, COLORS[floor], SMALL)
-            words = "worst   " + "   ".join(f"{kind} {amount(self.slowed[floor, kind])}" for kind in KINDS)
+            words = "worst   " + "   ".join(f"{kind} {share_text(self.slowed[floor, kind])}" for kind in KINDS)
             canvas.text(words, view.right - 2, view.y - 8, PAPER, SMALL, align="right")
         for number, floor in enumerate(FLOORS):
             y = 222 + number * 14
@@ -246,7 +247,7 @@ class GhostBumps(Scene):
             pygame.draw.rect(frame.surface, SLATE, rect, 1)
             frame.text(title, rect.x + 3 * scale, rect.y + 3 * scale, FOG, SMALL, scale)
             plot = pygame.Rect(rect.x + 2, rect.y + 12 * scale, rect.width - 4, rect.height - 15 * scale)
-            marks = ((1e-4, "1e-4"), (1e-8, "1e-8"), (1e-12, "1e-12")) if number == 0 else ((2.0, "2"), (4.0, "4"))
+            marks = ((1e-4, "0.01 %"), (1e-8, ""), (1e-12, "")) if number == 0 else ((2.0, "2"), (4.0, "4"))
             for value, _ in marks:
                 y = plot.bottom - plot.height * share(number, value)
                 pygame.draw.line(frame.surface, (52, 46, 76), (plot.left, y), (plot.right, y))
@@ -262,7 +263,8 @@ class GhostBumps(Scene):
                     pygame.draw.lines(frame.surface, COLORS[floor], False, points, max(1, frame.scale - 1))
             for value, text in marks:  # over the curves
                 y = plot.bottom - plot.height * share(number, value)
-                frame.text_if_free(text, plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
+                if text:
+                    frame.text_if_free(text, plot.left + 2 * scale, y + scale, FOG, SMALL, scale, "left", True)
             frame.fix(rect)
 
     def check(self):
@@ -276,7 +278,7 @@ class GhostBumps(Scene):
                     f"no speed is lost on the {floor}",
                     590,
                     self.run >= WANTED and worst <= KEEPS[floor],
-                    f"{worst:.1e} after {self.run} tiles",
+                    f"{share_text(worst)} after {self.run} tiles",
                 ),
                 Goal(
                     f"nothing leaves the {floor}",
@@ -301,7 +303,7 @@ class GhostBumps(Scene):
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
         parts = (
-            f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
+            f"{TITLES[floor]} {share_text(max(self.slowed[floor, kind] for kind in KINDS))}"
             f" ({cost_text(self, (*self.chosen, floor))})"
             for floor in FLOORS
         )
@@ -343,10 +345,3 @@ def share(number, value):
     if number == 1:
         return min(max(value / HEIGHT_TOP, 0.0), 1.0)
     return (log10(min(max(value, LEAST), 1.0)) - log10(LEAST)) / -log10(LEAST)
-
-
-def amount(error):
-    """Return a relative error as short text, such as "0", "1e-12" or "3 %"."""
-    if error <= 0.0:
-        return "0"
-    return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

@@ -288,7 +288,7 @@ class Joints(Scene):
     def check(self):
         """Return the goals of all machines, a list of Goal, checked with the results for both joint solvers."""
         return [
-            Goal(f"{machine.name}: {name}", (number + 1) * TURN, met, detail)
+            Goal(f"{machine.name}: {name}", (number + 1) * TURN, met, detail, (machine.name, "direct") in self.results)
             for number, machine in enumerate(MACHINES)
             for name, met, detail in machine.goals(
                 *(self.results.get((machine.name, tier)) for tier in ("iterative", "direct"))

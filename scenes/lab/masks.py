@@ -21,6 +21,7 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, SKY, SLATE, WHITE, YELLOW, faded
 from game.drawing.headline import Headline
+from game.drawing.number_text import TIER_WORDS
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
@@ -46,7 +47,7 @@ COLORS = {
     "pixels": YELLOW,
     "mask": WHITE,
 }
-NAMES = {"aabb": "box", "obb": "turned box", "mask": "exact"}
+NAMES = TIER_WORDS
 DRAWN = ("circle", "aabb", "obb", "capsule", "hull")
 LIARS = ("circle", "aabb", "obb")  # tiers that the bot catches
 TABLE_X, TABLE_Y, ROW_HEIGHT = 324, 42, 22

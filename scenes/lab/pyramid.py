@@ -200,7 +200,7 @@ class Pyramid(Scene):
         if self.run_name not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
         mine = dots[self.run_name]
-        sentence = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
+        sentence = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.1f} thousandths"
         as_good = [name for name, dot in dots.items() if dot.error <= mine.error]
         best = min(as_good, key=lambda name: dots[name].cost)
         if len(dots) < len(self.measured().names) or best == self.run_name:

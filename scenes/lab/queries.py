@@ -404,8 +404,8 @@ class Queries(Scene):
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
         among = f"{self.query} among {self.values['bodies']:,} shapes: {looks}, brute force at"
         sentence = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
-        costs = [cost_of(self, self._run_name(name)) for name in STRATEGIES]
-        if None not in costs:
+        costs = [cost for name in STRATEGIES if (cost := cost_of(self, self._run_name(name))) is not None]
+        if len(costs) == len(STRATEGIES):
             sentence += f"; a query takes {1e6 * min(costs):,.0f} to {microseconds(max(costs))} in the four"
         return f"{sentence}; {self.disagreements} of {self.asked:,} answers differed"
 

@@ -22,7 +22,7 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
 from game.drawing.headline import ENOUGH, Headline
-from game.drawing.number_text import count_text
+from game.drawing.number_text import count_text, gap_text
 from game.input.inputs import InputFrame
 from game.measure.shape_traces import gjk_steps, sat_axes
 from game.overlays.layer_impulses import arrow
@@ -321,16 +321,13 @@ class Shapes(Scene):
             ),
             Goal("in either order the same", 590, self.mirrored == 0, f"{self.mirrored} differ"),
             Goal(
-                "nearest points are as far apart as said",
-                590,
-                self.worst["gap"] <= EXACT,
-                f"{self.worst['gap']:.1e} px",
+                "nearest points are as far apart as said", 590, self.worst["gap"] <= EXACT, gap_text(self.worst["gap"])
             ),
             Goal(
                 "the best axis is as wide as the distance, or the depth",
                 590,
                 self.worst["axis"] <= EXACT,
-                f"{self.worst['axis']:.1e} px off",
+                gap_text(self.worst["axis"]),
             ),
             Goal("many pairs of shapes", 590, len(self.pairs) >= 20, f"{len(self.pairs)}"),
         ]
@@ -345,7 +342,7 @@ class Shapes(Scene):
                 f"{step['phase'].upper()} stopped after round {index + 1} of {count} is wrong about the distance."
             )
             unit = "off the answer of the last round"
-            headline = Headline(sentence, "Enter: next round", f"{off:.3g} px", unit, self.compared, 1, "answers")
+            headline = Headline(sentence, "Enter: next round", gap_text(off), unit, self.compared, 1, "answers")
             return headline.asks("How many rounds does GJK need to find the distance?")
         sentence = "SAT, GJK and the contact disagree about the same two shapes."
         unit = f"of {self.compared:,} answers differ"
@@ -359,7 +356,7 @@ class Shapes(Scene):
         wrong = self.disagreed + self.mirrored
         seen = f"{count_text(self.compared, 'pose')} of {count_text(len(self.pairs), 'pair')}"
         sentence = f"in {seen} of shapes the methods disagreed {wrong} times"
-        return f"{sentence}; SAT and GJK are {self.worst['axis']:.1g} px apart at most, after {self.rounds} rounds"
+        return f"{sentence}; SAT and GJK: {gap_text(self.worst['axis'])}, after {count_text(self.rounds, 'round')}"
 
     def bot(self):
         """Return the bot's input for the next step.

@@ -136,12 +136,14 @@ def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
     play(lab, 2)
     choose(lab, "friction")
     request = lab.measured()
-    assert [name[:2] for name in request.names] == [(n, on) for n in ("gravity", "friction") for on in (True, False)]
+    assert [name[:2] for name in request.names] == [
+        (how, n) for n in ("gravity", "friction") for how in ("with", "without")
+    ]
     assert lab.price("friction") is None and lab.price("drag") is None
     for name in request.names:
-        effect, on = name[:2]
+        how, effect = name[:2]
         (snapshot,) = request.make(name).snapshots
-        assert Effects.named(snapshot.facts["effects"]) == (ALL if on else ALL.without(effect))
+        assert Effects.named(snapshot.facts["effects"]) == (ALL if how == "with" else ALL.without(effect))
         moving = snapshot.arrays["bodies"][snapshot.arrays["bodies"]["kind"] == DYNAMIC]
         assert moving["awake"].all() and np.array_equal(
             moving["x"], lab.real.world.bodies["x"][lab.real.world.bodies["kind"] == DYNAMIC]

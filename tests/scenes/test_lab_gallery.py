@@ -248,5 +248,5 @@ def test_the_bot_looks_into_every_page_and_goes_on_when_one_is_judged():
 
 def test_errors_as_short_text():
     assert [amount(v) for v in (0.0, 2.1e-13, 0.00166, 18.18, 84.3, 50313.9)] == [
-        "0", "2e-13", "0.00166", "18.2", "84.3", "50,314"
+        "0", "<0.001", "0.00166", "18.2", "84.3", "50,314"
     ]  # fmt: skip

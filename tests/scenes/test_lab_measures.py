@@ -11,7 +11,7 @@ from game.registry import Registry
 from physics import Capsule, Circle, Polygon
 from scenes import SCENES
 from scenes.lab.conveyor import BELTS, direction, on_belt
-from scenes.lab.ghost_bumps import amount, share
+from scenes.lab.ghost_bumps import share
 from scenes.lab.pieces import hull, piece, signed_distance
 from scenes.lab.sensors import least_gap
 from scenes.lab.shape_pictures import placed_hull
@@ -84,8 +84,7 @@ def test_gaps_of_crossings():
     assert least_gap((0, 0), (10, 0), (300, 0), (300, 0), half) > 200.0
 
 
-def test_errors_as_short_text_and_on_the_scale():
-    assert [amount(v) for v in (0.0, 3e-12, 0.004, 0.2)] == ["0", "3e-12", "4e-3", "20%"]
+def test_errors_on_the_scale():
     assert share(0, 0.0) == 0.0 and share(0, 1.0) == 1.0 and share(0, 1e-8) == pytest.approx(0.5)
 
 

@@ -23,6 +23,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SLATE, faded
 from game.drawing.headline import ENOUGH, Headline
+from game.drawing.number_text import SMALLEST
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
@@ -351,9 +352,9 @@ def interval(rate):
 
 
 def amount(value):
-    """Return an error as short text with at most three decimals, for example "0", "5e-4", "18.2" or "50,314"."""
+    """Return an error as short text, for example "0", "<0.001", "18.2" or "50,314"."""
     if value == 0.0:
         return "0"
-    if abs(value) < 0.001:
-        return f"{value:.0e}".replace("e-0", "e-")
+    if abs(value) < SMALLEST:
+        return f"<{SMALLEST}"
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"

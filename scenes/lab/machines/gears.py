@@ -5,6 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 import pygame
 
 from game.drawing.colors import INK
+from game.drawing.number_text import error_text
 from game.drawing.rotated import poses_between
 from physics import Circle, Drive, Gear, Material, Polygon, Prismatic, Revolute
 from scenes.lab.machines.machine import GOLDEN, GRAVITY, STEEL, WOOD, Machine
@@ -97,7 +98,7 @@ class Gears(Machine):
 
     def figure(self):
         """Return the error of the gear ratios as text."""
-        return f"ratios off by {self.error:.0e}".replace("e-0", "e-")
+        return f"ratios: {error_text(self.error)}"
 
     @property
     def error(self):
@@ -146,7 +147,11 @@ class Gears(Machine):
         """
         _, broken, error, turned = direct or (9.0, 0, 9.0, 0.0)
         return [
-            ("gears keep their ratio to 1e-3", turned > 6.0 and error < SURE, f"{error:.1e} over {turned:.0f} rad"),
+            (
+                "gears keep their ratio to a thousandth",
+                turned > 6.0 and error < SURE,
+                f"{error_text(error)} over {turned:.0f} rad",
+            ),
             ("the teeth break", broken == 1, f"{broken} joints"),
         ]
 
