@@ -1,6 +1,6 @@
 """Ground of 480 x 240 pixels to blast and dig: do loose parts fall, roll and come to rest by their own pixels?
 
-In short: a carve rebuilds only the tiles that it touches. A loose part falls with its own pixels and mass.
+In short: parts that are cut free hang in the air. X lets them fall with their own pixels.
 
 What to see: a carve rebuilds only the tiles that it touches, so it costs the same in large ground as in small. A loose
 part becomes a body in the same step, with its own pixels, mass and spin. All pixels are counted: a pixel that left the
@@ -13,6 +13,7 @@ To try: cut a block free on all sides, and watch it become a body with the last 
 Source: Rosenfeld and Pfaltz, Sequential operations in digital picture processing, 1966 (pieces).
 """
 
+from dataclasses import replace
 from math import hypot
 
 import numpy as np
@@ -51,6 +52,9 @@ MASKS = (
     ("lab", "disc_large", 460, 114),
 )
 BALLS = (("ball_2", 5.0, 56, 148), ("ball_5", 5.0, 188, 152), ("ball_1", 5.0, 364, 124), ("steel_ball", 14.0, 390, 112))
+LOOSE = ("hang", "fall")
+OPENS = 30  # step of a first cut, unless the player has carved
+CUTS = ((52, 8, 240, 172), (8, 30, 218, 190), (8, 30, 262, 190), (52, 26, 240, 216))  # width, height, x, y: a block
 KNOCK = 70.0  # [px/s] a softer one is silent
 PLATE = (4, 19, 122, 85)
 FEWEST = 6  # places of the ground at which a carve is timed
@@ -79,8 +83,12 @@ class Carving(Scene):
         "what comes loose is a body of its own pixels",
         "pixels, pieces, tiles, and the cost of a carve, measured beside the game",
     )
-    sliders = (Slider("tool", 0, len(TOOLS) - 1, 0, choices=TOOLS), Slider("radius", 3, 40, 14, "px"))
-    actions = (("mouse", "blast, dig"), ("wheel", "radius"), ("left right", "tool"))
+    sliders = (
+        Slider("tool", 0, len(TOOLS) - 1, 0, choices=TOOLS),
+        Slider("radius", 3, 40, 14, "px"),
+        Slider("loose parts", 0, 1, 0, choices=LOOSE),
+    )
+    actions = (("X", "loose parts"), ("mouse", "blast, dig"), ("wheel", "radius"), ("left right", "tool"))
     broadphase = "tree"
     head = HEAD
     legend_at = (4, 198)
@@ -110,6 +118,7 @@ class Carving(Scene):
         self.whole = self.left = self.solid()  # pixels before the first carve, and now
         self.removed = self.crumbs = self.carves = self.made = self.unequal = 0
         self.fell = 0.0  # [px] greatest fall of a piece since it came loose
+        self.hanging = set()  # ids of loose parts that are held in the air
         self.loose_at = {}  # body id -> height of its centre when it came loose [px]
         self.pointed = (240, 100)
         self.anew = 0  # tiles of the ground rebuilt by the last carve
@@ -120,9 +129,13 @@ class Carving(Scene):
         self.draggable = self.tool.name == "hand"
 
     def change_slider(self, name, value):
-        """Set the slider `name`, the tool or its radius, to `value`."""
+        """Set the slider `name` to `value`: the tool, its radius, or whether loose parts fall."""
         super().change_slider(name, value)
         self._take_tool()
+        if name == "loose parts" and self.values[name]:
+            for identity in sorted(self.hanging):
+                self.world.body(identity).set_kind("dynamic")
+            self.hanging.clear()
 
     def solid(self):
         """Return the number of solid pixels in the masks of all bodies."""
@@ -140,20 +153,25 @@ class Carving(Scene):
         self.pointed = inputs.pointer
         cut = self.tool.cut(inputs)
         if cut is not None and inputs.pointer[1] > HEAD:
-            self._carve(*cut)
+            self._carve(*cut, self.tool.reach)
             if self.tool.name == "blast":
                 self._blast(*self.pointed)
+        if inputs.pressed("bomb"):
+            self.change_slider("loose parts", 1 - self.values["loose parts"])
+        if self.frame == OPENS and not self.carves:
+            for width, height, x, y in CUTS:
+                self._carve(Polygon.box(width, height), (x, y, 0.0), ((x - width, y - height), (x + width, y + height)))
         self.world.step()
         self._follow()
 
-    def _carve(self, shape, pose):
-        """Carve the tool's shape out of every carvable body within reach, and update the counts.
+    def _carve(self, shape, pose, reach):
+        """Carve a shape out of every carvable body within reach, and update the counts.
 
-        pose: (x, y, angle) [px, rad] of `shape`.
+        pose: (x, y, angle) [px, rad] of `shape`; reach: corners ((x, y), (x, y)) of the box that it is in.
         """
-        x, y = self.pointed
+        x, y = pose[:2]
         tiles = self._tiles()
-        reached = sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id)
+        reached = sorted(self.world.query_aabb(*reach), key=lambda each: each.id)
         taken = sum(self._carve_one(body, shape, pose) for body in reached if body.id in self.prints.of)
         if taken:
             self.carves += 1
@@ -175,9 +193,13 @@ class Carving(Scene):
         for piece in carved.fragments:
             self.prints.add_piece(piece, parent)
             self.loose_at[piece.id] = piece.center[1]
+            if not self.values["loose parts"] and body.kind == "static":
+                piece.set_kind("static")
+                self.hanging.add(piece.id)
         if identity not in self.world:
             self.prints.forget(identity)
             self.loose_at.pop(identity, None)
+            self.hanging.discard(identity)
         self.removed += carved.removed
         self.crumbs += carved.crumbs
         self.made += len(carved.fragments)
@@ -315,11 +337,11 @@ class Carving(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        lost = self.whole - self.left - self.removed - self.crumbs
-        sentence = "What is undermined falls, and pixels are lost."
-        unit = f"pieces came loose, {lost} pixels lost"
-        headline = Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
-        return headline.asks("What is undermined falls as a body of its own pixels: is none lost?")
+        hang, lost = len(self.hanging), self.whole - self.left - self.removed - self.crumbs
+        sentence = "A part that is cut free hangs in the air."
+        number, unit = f"{hang} of {self.made}", f"loose parts hang, {lost} pixels lost"
+        headline = Headline(sentence, "X: let them fall", number, unit, self.carves, 1, "cuts", not hang)
+        return headline.asks("Does a part that is cut free fall with its own pixels?")
 
     def finding(self):
         """Return a sentence on the last carve: the number of tiles of the ground that it rebuilt.
@@ -338,7 +360,8 @@ class Carving(Scene):
         The bot undermines a bridge, a rock on a thin neck and a cliff. It digs under the crates, and carves with the
         star.
         """
-        return plan(self.frame)
+        inputs = plan(self.frame)
+        return inputs if self.frame else replace(inputs, changes=(*inputs.changes, ("slider:loose parts", 1)))
 
     def state(self):
         """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""

@@ -1,6 +1,7 @@
 """A floor of boxes, one of tiles, one of a chain: do seams slow a sliding body?
 
-In short: a box, a disc and a capsule slide over three floors without friction. Their speed stays the same on each.
+In short: without friction a box, a disc and a capsule slide over three floors. Projection lets separate boxes slow
+them; soft step does not.
 
 What to see: a box, a disc and a capsule slide over 260 tile lengths of each floor, without friction. Tiles are merged,
 and chain links store their neighbours. Separate boxes do not: if the surface under a body continues flush, a contact
@@ -22,9 +23,10 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
 from game.drawing.headline import Headline
-from game.drawing.number_text import share_text
+from game.drawing.number_text import plain_name, share_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
+from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import STANDS, Goal, Scene, Slider
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
@@ -32,6 +34,7 @@ from scenes.lab.costs import cost_text
 from scenes.lab.pieces import piece
 from scenes.lab.yard import HEAD
 
+WAYS = ("projection", "soft_step")  # solvers
 FLOORS = ("boxes", "tiles", "chain")
 TITLES = {"boxes": "separate boxes", "tiles": "one grid of tiles", "chain": "one chain"}
 COLORS = {"boxes": RED, "tiles": SKY, "chain": GREEN}
@@ -62,12 +65,13 @@ class GhostBumps(Scene):
     title = "Ghost bumps"
     question = STANDS
     about = "Box, disc and capsule slide over boxes, tiles and a chain, and feel no seam."
-    keeps = {"solver": "what a seam takes off a slider is asked of the solver that a World has by itself"}
+    solvers = WAYS
+    keeps = {"solver": "projection is the one that fails here, beside the solver that a World has by itself"}
     effects = Effects(response=True, gravity=True, rotation=True, stacking=True)
     pieces = ("boxes", "circles", "capsules", "tiles", "chains")
     features = ("tiles merged into runs", "chains with ghost neighbours", "speed and height as live curves")
-    sliders = (Slider("speed", 60, 600, 360, "px/s", step=20),)
-    actions = (("left right", "speed"),)
+    sliders = (Slider("speed", 60, 600, 360, "px/s", step=20), Slider("solver", 0, 1, 0, choices=WAYS))
+    actions = (("X", "solver"), ("left right", "speed"))
     draggable = True
     filter_names = {1: "floor"} | {2 << number: kind for number, kind in enumerate(KINDS)}
     head = HEAD
@@ -75,6 +79,9 @@ class GhostBumps(Scene):
 
     def build(self):
         """Build three floors, and three sliding bodies on each."""
+        if self.solver in WAYS:  # named on the command line, or chosen before a restart
+            self.values["solver"] = WAYS.index(self.solver)
+        self.solver = WAYS[int(self.values["solver"])]
         for floor in FLOORS:
             lay_floor(self.add_world(), floor)
         self.cameras = [Camera(view) for view in VIEWS]
@@ -114,17 +121,24 @@ class GhostBumps(Scene):
         body.angular_velocity = 0.0
 
     def change_slider(self, name, value):
-        """Set the slider `name` to `value`. After a change of speed, start the run again."""
+        """Set the slider `name` to `value`, and start the run again after a change."""
         before = self.values[name]
         super().change_slider(name, value)
-        if self.values[name] != before:
-            self.launch()
+        if self.values[name] == before:
+            return
+        if name == "solver":
+            self.solver = WAYS[int(self.values["solver"])]
+            for world in self.worlds:
+                world.solver = self.solver
+        self.launch()
 
     def update(self, inputs):
         """Process keys, step each world, and measure speeds and heights. At the end of a floor, start a new run."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("speed", self.values["speed"] + 20 * turn)
+        if inputs.pressed("bomb"):
+            self.change_slider("solver", 1 - self.values["solver"])
         if START_X["box"] + self.nominal > (LENGTH - 4) * TILE:
             done = self.run, self.slowed, self.raised, self.aloft, self.set_back
             self.launch()
@@ -293,10 +307,12 @@ class GhostBumps(Scene):
         """Return the Headline: the sentence and the number in the scene's title line."""
         worst = max(self.slowed["boxes", kind] for kind in KINDS)
         good = worst <= KEEPS["boxes"]
-        takes = "do seams take speed?" if good else "seams take speed."
-        sentence = f"At {self.values['speed']} px/s over {self.run} separate boxes, {takes}"
+        over = f"at {self.values['speed']} px/s over {self.run} separate boxes"
+        name = plain_name(self.world.solver)
         number, unit = f"{100 * worst:.3f} %", "of the speed lost at seams"
-        return Headline(sentence, "left right: speed", number, unit, self.run, MANY, "boxes", good)
+        sentence = f"{name[:1].upper()}{name[1:]}, {over}: seams take speed."
+        headline = Headline(sentence, "X: soft step", number, unit, self.run, MANY, "boxes", good)
+        return headline.asks(f"{name[:1].upper()}{name[1:]}, {over}: do seams take speed?")
 
     def finding(self):
         """Return a sentence with the greatest relative loss of speed on each floor, and the time of a step."""
@@ -310,15 +326,15 @@ class GhostBumps(Scene):
         return f"of the speed was lost after {self.run} tiles: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step, which is empty: the bot only watches."""
-        return frozenset()
+        """Return the bot's input for the next step. The bot chooses the solver of a World, then only watches."""
+        return InputFrame(changes=(("slider:solver", WAYS.index("soft_step")),) if self.frame == 0 else ())
 
     def state(self):
         """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
         return (
             self.frame,
-            self.values["speed"],
+            *self.values.values(),
             self.run,
             self.nominal,
             *(v for tally in tallies for v in tally.values()),

@@ -23,13 +23,14 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, FOG, NIGHT, PAPER, RED, SLATE
 from game.drawing.headline import Headline
+from game.drawing.number_text import tier_name
 from game.drawing.sprites import load_atlas
 from game.errors import FileError
 from game.files.pictures import png_size
 from game.input.inputs import InputFrame
 from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
-from game.scene import FAIR, Goal, Scene
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import TIERS, Effects, PixelMask, debug, fit
 from scenes.lab.coverage import covered
 from scenes.lab.yard import HEAD
@@ -58,6 +59,7 @@ VIEW = 70  # [px] width and height of a sprite's cell
 MOST = 256  # [px] greatest width and height of the player's picture
 BOT_LOOKS = 20  # steps at each sprite
 LIT = {"px too many": RED, "px left out": BLUE}  # colours of the marked pixels
+ALLOWED = 0.01  # empty share of a shape that counts as none
 MIX = 0.6  # of red and blue over the picture
 
 
@@ -78,7 +80,8 @@ class Ladder(Scene):
         "over-covered and missed pixels lit",
         "IoU, Hausdorff distance, centre, inertia, bytes, times to make and to test",
     )
-    actions = (("left right wheel", "another sprite"),)
+    sliders = (Slider("shape", 0, len(TIERS) - 1, TIERS.index("aabb"), choices=tuple(map(tier_name, TIERS))),)
+    actions = (("left right wheel", "another sprite"), ("up down", "shape"))
     head = HEAD
     hides_pointer = False
     takes_level = True
@@ -165,6 +168,9 @@ class Ladder(Scene):
         way = inputs.pressed("right") - inputs.pressed("left") + inputs.wheel
         if way:
             self._show((self.choice + way) % len(self.choices))
+        turn = inputs.pressed("down") - inputs.pressed("up")
+        if turn:
+            self.change_slider("shape", (self.values["shape"] + turn) % len(TIERS))
         for world in self.worlds:
             world.step()
 
@@ -248,10 +254,12 @@ class Ladder(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        over, area = self.counts["aabb"][0], self.mask.area + self._balance("aabb")
-        sentence = f"The box of the {self.sprite_name} hits where nothing is drawn: red."
-        number, unit = f"{100 * over / area:.0f} %", "of the box is empty"
-        return Headline(sentence, "left right: sprite", number, unit, 1, 1, "sprites")
+        tier = TIERS[int(self.values["shape"])]
+        empty, name = self.counts[tier][0] / (self.mask.area + self._balance(tier)), tier_name(tier)
+        sentence = f"By its {name}, the {self.sprite_name} is hit where nothing is drawn: red."
+        number, unit = f"{100 * empty:.0f} %", f"of its {name} is empty"
+        headline = Headline(sentence, "down: next shape", number, unit, 1, 1, "sprites", empty < ALLOWED)
+        return headline.asks(f"By its {name}, is the {self.sprite_name} hit where nothing is drawn?")
 
     def finding(self):
         """Return a sentence on the sprite's box, hull and outline: how much of each is empty, and the time of a hit."""
@@ -275,7 +283,8 @@ class Ladder(Scene):
 
     def state(self):
         """Return the scene's part of the state hash, a flat tuple: the sprite and its counts."""
-        return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
+        counts = (count for pair in self.counts.values() for count in pair)
+        return (self.frame, self.choice, *self.values.values(), *counts)
 
 
 def _times(hit, miss):

@@ -57,6 +57,8 @@ WARM = 30  # steps after which sinking and swaying count
 WINDOW = 60  # steps over which the sway is measured
 EVERY = 4  # steps between two measurements of a sprite's fit
 FITS_BY = 180  # steps after which all are measured
+ALLOWED = 0.05  # air that the shapes hold, as a share of the sprites' pixels
+WORDS = {"box": "boxes", "hull": "hulls", "outline": "outlines", "exact": "pixels"}
 SLEPT_BY = 480
 FALLEN = 8.0  # [px] sag of a pile's top that counts as a fall
 
@@ -77,9 +79,13 @@ class MaskStack(Scene):
         "corners, pixels too many and too few",
         "sinking, swaying and sleep, live, and the cost of a step, measured beside the game",
     )
-    sliders = (Slider("sprites", 0, len(CHOICES) - 1, 0, choices=CHOICES), Slider("high", 2, 5, 3))
+    sliders = (
+        Slider("sprites", 0, len(CHOICES) - 1, 0, choices=CHOICES),
+        Slider("high", 2, 5, 3),
+        Slider("shape", 0, len(WAYS) - 1, 0, choices=WAYS),  # the one that the title line is about
+    )
     lighter = {"high": 2, "substeps": 2}
-    actions = (("Space", "nudge"), ("left right", "sprites"), ("up down", "high"))
+    actions = (("X", "shape"), ("Space", "nudge"), ("left right", "sprites"), ("up down", "high"))
     draggable = True
     head = HEAD
     legend_at = (4, 20)
@@ -155,9 +161,10 @@ class MaskStack(Scene):
         return (*tower, ("discs", BESIDE), ("stars", BESIDE))
 
     def change_slider(self, name, value):
-        """Set the slider `name` to `value`, then build the piles again."""
+        """Set the slider `name` to `value`, then build the piles again. The slider "shape" leaves them as they are."""
         super().change_slider(name, value)
-        self.fill()
+        if name != "shape":
+            self.fill()
 
     def update(self, inputs):
         """Process keys, step all worlds, and update the measurements."""
@@ -171,6 +178,8 @@ class MaskStack(Scene):
             for top in self.tops:
                 top.wake()
                 top.apply_impulse((NUDGE * top.mass, 0.0))
+        if inputs.pressed("bomb"):
+            self.change_slider("shape", (self.values["shape"] + 1) % len(WAYS))
         self.since += 1
         if self.since % EVERY == 0:
             self._measure_one_fit()
@@ -319,13 +328,15 @@ class MaskStack(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        laid = self.laid["box"]
-        seen = sum((name, "box") in self.fits for name, _, _ in laid)
-        air = 0.0 if seen < len(laid) else self.share("box")[1]
-        sentence = "In their boxes sprites rest on air; by their outlines they fit."
-        number, unit = f"{air:.0f} px", "of air in boxes"
-        headline = Headline(sentence, "left right: sprites", number, unit, seen, len(laid), "sprites")
-        return headline.asks("Do sprites in their boxes rest on each other, or on air?")
+        way = WAYS[int(self.values["shape"])]
+        laid = self.laid[way]
+        seen = sum((name, way) in self.fits for name, _, _ in laid)
+        air, area = (self.share(way)[1], sum(mask.area for _, mask, _ in laid)) if seen == len(laid) else (0.0, 1.0)
+        sentence = f"By their {WORDS.get(way, way)} sprites rest on air, not on each other."
+        number, unit = f"{air:.0f} px", f"of air held, of {area:,.0f} px of sprites"
+        good = air < ALLOWED * area
+        headline = Headline(sentence, "X: next shape", number, unit, seen, len(laid), "sprites", good)
+        return headline.asks(f"By their {WORDS.get(way, way)}, do sprites rest on each other?")
 
     def finding(self):
         """Return a sentence with the air, the corners and the sag of the piles of boxes, outlines and exact pixels."""

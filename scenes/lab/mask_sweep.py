@@ -68,8 +68,12 @@ class MaskSweep(Scene):
         "walls one pixel thin: straight, aslant, a ring",
         "what passes is counted, with and without",
     )
-    sliders = (Slider("speed", 300, 9000, 3600, "px/s", step=100), Slider("shots", 0, len(SHOTS) - 1, 0, choices=SHOTS))
-    actions = (("left right", "speed"), ("Space", "bullets, swords"))
+    sliders = (
+        Slider("speed", 300, 9000, 3600, "px/s", step=100),
+        Slider("shots", 0, len(SHOTS) - 1, 0, choices=SHOTS),
+        Slider("side", 0, 1, 0, choices=("unswept", "swept")),  # the one that the title line is about
+    )
+    actions = (("X", "other side"), ("left right", "speed"), ("Space", "bullets, swords"))
     broadphase = "brute"  # a dozen shots and three walls per world: no structure pays off
     solver = "sequential_impulse"  # a shot that meets a wall is removed in the next step: there is no lasting load
     head = HEAD
@@ -100,6 +104,8 @@ class MaskSweep(Scene):
         way = inputs.pressed("right") - inputs.pressed("left")
         if way:
             self.change_slider("speed", self.values["speed"] + 300 * way)
+        if inputs.pressed("bomb"):
+            self.change_slider("side", 1 - self.values["side"])
         if inputs.pressed("fire"):
             self.change_slider("shots", (int(self.values["shots"]) + 1) % len(SHOTS))
         for _, _, body in self.spent:  # visible for one more step
@@ -303,11 +309,14 @@ class MaskSweep(Scene):
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
-        step = f"At {float(self.values['speed']) / 60:.0f} px a step,"
-        sentence = f"{step} unswept sprites pass walls of one pixel."
-        number, unit = f"{passed['off']} of {met['off']}", f"passed; swept, {passed['toi']} of {met['toi']}"
-        headline = Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
-        return headline.asks(f"{step} do unswept sprites pass walls of one pixel?")
+        step, at = f"at {float(self.values['speed']) / 60:.0f} px a step,", int(self.values["side"])
+        way, other, name = WAYS[at], WAYS[1 - at], ("Unswept", "Swept")[at]
+        number = f"{passed[way]} of {met[way]}"
+        unit = f"passed; {('swept', 'unswept')[at]}, {passed[other]} of {met[other]}"
+        sentence = f"{name}, {step} sprites pass walls of one pixel."
+        mend = f"X: {('swept', 'unswept')[at]}"
+        headline = Headline(sentence, mend, number, unit, met[way], ENOUGH, "shots", not passed[way])
+        return headline.asks(f"{name}, {step} do sprites pass walls of one pixel?")
 
     def finding(self):
         """Return a sentence with the number of shots that passed the walls, without sweep and with sweep.

@@ -20,7 +20,7 @@ import pygame
 from game.drawing.backdrop import Backdrop
 from game.drawing.canvas import SMALL, whole
 from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED
-from game.drawing.headline import ENOUGH, Headline
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -56,6 +56,8 @@ LIFT_AT, LIFT_SIZE = (396.0, 178.0), (56, 16)
 LIFT_WAY = (34.0, 34.0)  # [px] amplitude along x and y
 RIDERS = (-15.0, 15.0)  # [px] crate and walker from the lift's middle
 BOARD = 11  # [px] height of the line of counts below the title line
+FLIGHT = 40  # steps after which a thrown body has come through a plank, or was stopped by it
+ENOUGH = 4  # thrown bodies, one in half a second
 SETTLED = 60  # steps until riders are measured
 DUST = ((240, 226, 210), (180, 160, 150), (110, 96, 110))
 BOT = (
@@ -85,8 +87,12 @@ class OneWay(Scene):
         "a kinematic lift carries both",
         "the hero pushes crates and stands on them",
     )
-    sliders = (Slider("throw every", 20, 120, 35, "steps", step=5), Slider("lift", 0.0, 2.0, 1.0, step=0.25))
-    actions = (("left right", "run"), ("Space", "jump"), ("down+Space", "drop"))
+    sliders = (
+        Slider("throw every", 20, 120, 35, "steps", step=5),
+        Slider("lift", 0.0, 2.0, 1.0, step=0.25),
+        Slider("planks", 0, 1, 0, choices=("solid", "one way")),
+    )
+    actions = (("X", "planks"), ("left right", "run"), ("Space", "jump"), ("down+Space", "drop"))
     draggable = True
     head = HEAD
     legend_at = (8, 28)
@@ -99,7 +105,7 @@ class OneWay(Scene):
         pictures = {name: piece(shape, ramp) for name, (shape, ramp) in KINDS.items() if ramp}
         pictures["crate"] = self.things["crate"]
         self.cast = Cast(pictures)
-        self.world.add_body(level(self.world.effects), kind="static")
+        self.ground = self.world.add_body(self._level(), kind="static")
         self.hero = Character(self.world, Polygon.box(*HERO_BOX), (48.0, FLOOR * TILE - HERO_BOX[1] / 2), user="hero")
         self.vy, self.grounded, self.facing, self.run = 0.0, True, 1, 0.0
         self.clock = 0.0  # [steps] of the lift
@@ -113,6 +119,8 @@ class OneWay(Scene):
         )
         self.walker_vy = 0.0
         self.thrown = {}  # body id -> [was below, steps at rest, planks landed on]
+        self.flights = {}  # body id -> [steps since it was thrown, whether it came through a plank]
+        self.through = self.flown = 0  # bodies thrown longer than FLIGHT steps ago that came through; all of them
         self.throws = 0
         self.passed = {"body": 0, "hero": 0}
         self.landed = {"body": 0, "hero": 0}
@@ -127,14 +135,27 @@ class OneWay(Scene):
     def change_slider(self, name, value):
         """Set the slider `name` to `value`.
 
-        After a change of the lift, the slip of its riders is measured from their current positions on it.
+        After a change of the lift, the slip of its riders is measured from their current positions on it. A change of
+        the planks replaces the tiles, and removes the thrown bodies.
         """
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None
+        if name == "planks":
+            self.world.remove_body(self.ground)
+            self.ground = self.world.add_body(self._level(), kind="static")
+            for identity in list(self.thrown):
+                self._vanish(identity)
+            self.flights.clear()
+            self.through = self.flown = 0
+
+    def _level(self):
+        return level(self.world.effects, bool(self.values["planks"]))
 
     def update(self, inputs):
         """Move the lift and the hero, throw bodies, make one step, and count passes through planks and landings."""
+        if inputs.pressed("bomb"):
+            self.change_slider("planks", 1 - self.values["planks"])
         if self.frame % max(1, int(self.values["throw every"])) == 10:
             self._throw()
         self._aim_lift()
@@ -143,6 +164,7 @@ class OneWay(Scene):
         self._move_walker()
         self.world.step()
         self._watch_bodies()
+        self._judge_flights()
         self._watch_hero(before)
         self._watch_riders()
 
@@ -162,6 +184,7 @@ class OneWay(Scene):
             material=BRAKED,
         )
         self.cast.add(body, kind)
+        self.flights[body.id] = [0, False]
         self.thrown[body.id] = [dict.fromkeys(PLANKS, True), 0, set()]
         self.play("spring", x, 0.25)
         self.particles.burst(x, FLOOR * TILE - 4, 8, DUST, speed=(20, 80), life=(0.15, 0.4), angle=-pi / 2, spread=1.6)
@@ -173,6 +196,7 @@ class OneWay(Scene):
         self.particles.burst(*body.center, 12, DUST, speed=(10, 60), life=(0.2, 0.5))
         self.world.remove_body(body)
         del self.thrown[identity]
+        self.flights.pop(identity, None)
 
     def _aim_lift(self):
         """Set the velocity with which the lift reaches its next position in this step."""
@@ -224,6 +248,8 @@ class OneWay(Scene):
                 if below[name] and bottom < top - 0.5:
                     below[name] = False
                     self.passed["body"] += inside and vy < 0.0
+                    if inside and identity in self.flights:
+                        self.flights[identity][1] = True
                 elif bottom > top + TILE:
                     falls = first * TILE + REACH < x < (last + 1) * TILE - REACH and self.drag.held != identity
                     self.leaked += falls and not below[name]
@@ -231,6 +257,15 @@ class OneWay(Scene):
                 if inside and abs(bottom - top) < 1.0 and seen[1] == REST_STEPS and name not in landed:
                     landed.add(name)
                     self.landed["body"] += 1
+
+    def _judge_flights(self):
+        """Count the bodies that were thrown FLIGHT steps ago, and those of them that came through a plank."""
+        for identity, flight in list(self.flights.items()):
+            flight[0] += 1
+            if flight[0] == FLIGHT:
+                del self.flights[identity]
+                self.flown += 1
+                self.through += flight[1]
 
     def _watch_hero(self, before):
         bottom, x = self._hero_bottom(), self.hero.position[0]
@@ -332,6 +367,7 @@ class OneWay(Scene):
         """
         return [
             Goal("bodies come through from below", 600, self.passed["body"] >= 6, f"{self.passed['body']} times"),
+            Goal("none falls back through a plank", 600, not self.leaked, f"{self.leaked} of {self.passed['body']}"),
             Goal("bodies land on planks", 600, self.landed["body"] >= 3, f"{self.landed['body']} times"),
             Goal("the hero comes through from below", 240, self.passed["hero"] >= 3, f"{self.passed['hero']} times"),
             Goal("the hero lands on planks", 240, self.landed["hero"] >= 3, f"{self.landed['hero']} times"),
@@ -345,13 +381,12 @@ class OneWay(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        passed = self.passed["body"]
-        sentence = "Planks let bodies up from below, and do not hold them from above."
-        if not self.leaked:
-            sentence = "Planks let bodies up from below: do they hold them from above?"
-        unit = "that came up fell back through"
-        number = f"{self.leaked} of {passed}"
-        return Headline(sentence, "Space: jump", number, unit, passed, ENOUGH, "passes", not self.leaked)
+        planks = "One-way" if self.values["planks"] else "Solid"
+        number, unit = f"{self.through} of {self.flown}", "thrown bodies came up through a plank"
+        sentence = f"{planks} planks stop bodies that are thrown up from below."
+        good = 2 * self.through > self.flown
+        headline = Headline(sentence, "X: one-way planks", number, unit, self.flown, ENOUGH, "throws", good)
+        return headline.asks(f"{planks} planks: do bodies that are thrown up come through?")
 
     def finding(self):
         """Return a sentence with the passes and landings of bodies and hero, and the distance that the lift's riders
@@ -373,7 +408,8 @@ class OneWay(Scene):
         """
         frame = self.frame % 400
         held = {action for start, end, actions in BOT if start <= frame < end for action in actions.split()}
-        return InputFrame(frozenset(held))
+        changes = (("slider:planks", 1),) if self.frame == 0 else ()
+        return InputFrame(frozenset(held), changes=changes)
 
     def state(self):
         """Return the scene's part of the state hash, a flat tuple: the hero and the counts. The worlds are hashed
@@ -390,20 +426,23 @@ class OneWay(Scene):
             *self.passed.values(),
             *self.landed.values(),
             self.leaked,
+            self.through,
+            self.flown,
             *self.slip.values(),
             self.carried,
         )
 
 
-def level(effects):
+def level(effects, opens):
     """Return the TileGrid with the floor and the walls beside it.
 
-    effects: the world's Effects; the grid has planks only if the effect `one_way` is on.
+    effects: the world's Effects; the grid has planks that open from below only if the effect `one_way` is on. opens:
+    False for planks of solid tiles.
     """
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
-    for row, first, last in PLANKS.values() if effects.one_way else ():
-        one_way[row][first : last + 1] = [True] * (last + 1 - first)
+    for row, first, last in PLANKS.values() if effects.one_way or not opens else ():
+        (one_way if opens else solid)[row][first : last + 1] = [True] * (last + 1 - first)
     return TileGrid(solid, TILE, one_way)
 
 

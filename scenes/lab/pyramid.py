@@ -122,6 +122,8 @@ class Pyramid(Scene):
                 self.change_slider(name, self.values[name] + way)
         if inputs.pressed("bomb"):
             self.change_slider("solver", (int(self.values["solver"]) + 1) % len(SOLVERS))
+            if self._fallen() >= SUNK:  # the next solver begins with a whole pyramid
+                self.fill()
         if inputs.pressed("fire"):
             self._drop()
         self.tried.add(self.run_name)
@@ -181,9 +183,13 @@ class Pyramid(Scene):
                 found[name] = Dot(cost, overlap, COLORS[solver], word, name in self.tried)
         return found
 
+    def _fallen(self):
+        """Return how much lower the top crate is than it was built [crates]."""
+        return max(self.top.position[1] - self._built_at()[1], 0.0) / SIZE
+
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        fallen = max(self.top.position[1] - self._built_at()[1], 0.0) / SIZE
+        fallen = self._fallen()
         name = plain_name(SOLVERS[int(self.values["solver"])])
         name = name[:1].upper() + name[1:]
         unit, good = "crates lower than built", fallen < SUNK

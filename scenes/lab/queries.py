@@ -1,6 +1,7 @@
 """Rays, casts, overlaps, areas, the closest point among hundreds of shapes: which boxes do four broad phases visit?
 
-In short: the same query runs in four worlds. The boxes that each strategy visits are drawn and counted.
+In short: brute force visits all boxes, the tree, hash and sweep those near the query: about a third for a long ray.
+All answer alike.
 
 What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
 their normals and fractions. The places that each one visits are drawn: boxes of the tree that were entered or rejected;

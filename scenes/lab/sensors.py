@@ -61,8 +61,12 @@ class Sensors(Scene):
     effects = Effects(narrowphase=False, sensors=True, continuous=True)  # sensors test shapes by themselves
     pieces = ("circles", "boxes", "capsules")
     features = ("sensor zones: still, moving, thin, fast", "entries found between the steps", "each begin with its end")
-    sliders = (Slider("speed", 60, 9000, 2400, "px/s", step=60), Slider("scanner", 300, 6000, 2400, "px/s", step=100))
-    actions = (("left right", "speed"), ("up down", "scanner"))
+    sliders = (
+        Slider("speed", 60, 9000, 2400, "px/s", step=60),
+        Slider("scanner", 300, 6000, 2400, "px/s", step=100),
+        Slider("events", 0, 1, 0, choices=("of poses", "swept")),  # those that the title line is about
+    )
+    actions = (("X", "events"), ("left right", "speed"), ("up down", "scanner"))
     filter_names = {SHIP: "ship", ZONE: "zone"}
     head = HEAD
     legend_at = (8, 252)
@@ -111,6 +115,8 @@ class Sensors(Scene):
             turn = inputs.pressed(forth) - inputs.pressed(back)
             if turn:
                 self.change_slider(slider, self.values[slider] + turn * notch)
+        if inputs.pressed("bomb"):
+            self.change_slider("events", 1 - self.values["events"])
         if self.frame % EVERY == 0:
             self._launch()
         self._steer()
@@ -358,12 +364,14 @@ class Sensors(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        due, unseen = sum(self.due.values()), sum(self.unseen.values())
+        swept = int(self.values["events"])
+        due, unseen = sum(self.due.values()), sum((self.missed if swept else self.unseen).values())
         step = max(self.values["speed"], self.values["scanner"]) / 60
         sentence = f"At {step:.0f} px a step, entries fall between two steps; sweeping finds them."
-        number, unit = f"{unseen} of {due}", "entries unseen where bodies stand"
-        headline = Headline(sentence, "left: slower", number, unit, due, ENOUGH, "entries", not unseen)
-        return headline.asks(f"At {step:.0f} px a step, do entries fall between two steps?")
+        unit = ("entries unseen where bodies stand", "entries unseen along the swept way")[swept]
+        number, mend = f"{unseen} of {due}", ("X: swept", "X: not swept")[swept]
+        headline = Headline(sentence, mend, number, unit, due, ENOUGH, "entries", not unseen)
+        return headline.asks(f"At {step:.0f} px a step, {('do', 'swept, do')[swept]} entries fall between two steps?")
 
     def finding(self):
         """Return a sentence with the numbers of missed and false entries, and the greatest motion of a detected body

@@ -1,7 +1,7 @@
 """Any two convex shapes: how far apart are they, or how deep in each other, and do three methods agree?
 
-In short: the right side shows all differences A - B of their points. The shapes overlap if these contain the origin.
-GJK walks towards it.
+In short: SAT, GJK and the contact agree, to rounding. GJK is wrong only if it is stopped early: it walks towards the
+origin of all differences A - B.
 
 What to see: drag and turn the shapes. Below them is the best axis of SAT, with both projections. At the right is the
 set of all differences A - B of their points: the shapes overlap if it contains the origin. GJK moves towards the origin

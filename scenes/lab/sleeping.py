@@ -1,6 +1,7 @@
 """Heaps that fall asleep, and a ball that wakes one: which bodies wake, and what do sleeping bodies cost?
 
-In short: bodies at rest for half a second sleep, are drawn darker, and cost almost nothing. A hit wakes one island.
+In short: at first no body may sleep, and all are stepped. X lets them: at rest they sleep, drawn darker, for almost no
+time.
 
 What to see: a heap that has been at rest for half a second falls asleep and is drawn darker. It keeps its contacts and
 forces, and a step costs next to nothing. A knock wakes the island that it meets and no other. A falling column wakes
@@ -67,6 +68,7 @@ class Sleeping(Scene):
     question = FAST
     about = "Heaps fall asleep, a knock wakes one, and what falls wakes the next: who is awake, and what does it cost?"
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
+    other_effects = (effects.without("sleeping"),)
     pieces = ("boxes", "circles", "capsules")
     keeps = {"substeps": "by load: a player's six balls on one heap ask for more than the bot's one ball does"}
     features = (
@@ -77,10 +79,10 @@ class Sleeping(Scene):
     sliders = (
         Slider("high", 3, 6, 4, "crates"),
         Slider("apart", 120, 200, 140, "cm", step=5),
-        Slider("sleep", 0, 1, 1, choices=SLEEP),
+        Slider("sleep", 0, 1, 0, choices=SLEEP),
     )
     lighter = {"apart": 200, "high": 3, "substeps": 2}
-    actions = (("click or Space", "throw a ball"), ("left right", "aim"), ("up down", "crates"))
+    actions = (("X", "sleep"), ("click or Space", "throw a ball"), ("left right", "aim"), ("up down", "crates"))
     hides_pointer = False
     head = HEAD
     legend_at = (4, 20)
@@ -98,8 +100,7 @@ class Sleeping(Scene):
         """Replace the scene's world by a new one with all heaps, and clear the measurements."""
         self.worlds = []
         self.camera = Camera(((0, HEAD), (480, 254)), ZOOM, y=-(FLOOR - HEAD) / ZOOM)
-        effects = self.effects.with_(sleeping=self.effects.sleeping and bool(self.values["sleep"]))
-        world = self.add_world(effects)
+        world = self.add_world(self._chosen_effects())
         world.add_body(Polygon.box(2.0 * WIDE, 256.0), position=(WIDE / 2, 128.0), kind="static")
         for x in (-32.0, WIDE + 32.0):
             world.add_body(Polygon.box(64.0, 2000.0), position=(x, -1000.0), kind="static")
@@ -140,15 +141,23 @@ class Sleeping(Scene):
             world.add_body(STONES[number % 3], position=(x, -(0.6 + 0.9 * row) * METER), angle=0.4 * (number % 4))
 
     def change_slider(self, name, value):
-        """Set the slider `name` to `value`, then build the heaps again."""
+        """Set the slider `name` to `value`, then build the heaps again. The slider "sleep" leaves them as they are."""
         super().change_slider(name, value)
-        self.fill()
+        if name == "sleep":
+            self.world.set_effects(self._chosen_effects())
+        else:
+            self.fill()
+
+    def _chosen_effects(self):
+        return self.effects.with_(sleeping=self.effects.sleeping and bool(self.values["sleep"]))
 
     def update(self, inputs):
         """Process keys and the pointer, make one step, and record the islands that woke."""
         turn = inputs.pressed("up") - inputs.pressed("down")
         if turn:
             self.change_slider("high", self.values["high"] + turn)
+        if inputs.pressed("bomb"):
+            self.change_slider("sleep", 1 - self.values["sleep"])
         self.aim = min(max(self.aim + 6.0 * (inputs.held("right") - inputs.held("left")), 0.0), WIDE)
         if inputs.pressed("fire"):
             self._throw(self.aim, -self.values["high"] * 0.8 * METER)
@@ -336,10 +345,10 @@ class Sleeping(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        sentence = "Heaps cost time until they sleep; a ball wakes what it meets."
+        sentence = "Heaps at rest are stepped in every step, until they may sleep."
         number, unit = f"{self.awake} of {self.awake + self.asleep}", "bodies awake and stepped"
-        headline = Headline(sentence, "Space: a ball", number, unit, self.since, 1, "steps", not self.awake)
-        return headline.asks("All heaps sleep: does a ball wake more than it meets?")
+        headline = Headline(sentence, "X: sleep", number, unit, self.since, 1, "steps", not self.awake)
+        return headline.asks("Does any body move, or cost time, while its heap sleeps?")
 
     def finding(self):
         """Return a sentence with the number of awake bodies, the times of a step asleep and awake, and the woken
@@ -359,9 +368,10 @@ class Sleeping(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot waits until all bodies sleep, then throws a ball at the top of the first column.
+        The bot lets the bodies sleep, waits until all do, then throws a ball at the top of the first column.
         """
-        return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
+        changes = (("slider:sleep", 1),) if self.frame == 0 else ()
+        return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset(), changes=changes)
 
     def state(self):
         """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""

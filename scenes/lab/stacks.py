@@ -55,8 +55,13 @@ class Stacks(Scene):
     features = ("projection, sequential impulse and soft step side by side", "sag, sway and overlap measured live")
     solvers = SOLVERS
     keeps = {"solver": "a column for each solver, side by side: the first is projection's, which falls"}
-    sliders = (Slider("crates", 4, 12, 11), Slider("top crate", 1, 20, 1, "x as heavy"), Slider("substeps", 1, 8, 4))
-    actions = (("Space", "nudge"), ("left right", "crates"), ("up down", "top crate"))
+    sliders = (
+        Slider("crates", 4, 12, 11),
+        Slider("top crate", 1, 20, 1, "x as heavy"),
+        Slider("substeps", 1, 8, 4),
+        Slider("column", 0, len(SOLVERS) - 1, 0, choices=SOLVERS),  # the one that the title line is about
+    )
+    actions = (("X", "column"), ("Space", "nudge"), ("left right", "crates"), ("up down", "top crate"))
     draggable = True
     head = HEAD
     legend_at = (4, 20)
@@ -94,9 +99,10 @@ class Stacks(Scene):
         self.tops.append(body)
 
     def change_slider(self, name, value):
-        """Set the slider `name` to `value`, then build the columns again."""
+        """Set the slider `name` to `value`, then build the columns again. A new "column" leaves them as they are."""
         super().change_slider(name, value)
-        self.fill()
+        if name != "column":
+            self.fill()
 
     def update(self, inputs):
         """Process keys, step all worlds, and update the measurements."""
@@ -104,6 +110,8 @@ class Stacks(Scene):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
                 self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("bomb"):
+            self.change_slider("column", (self.values["column"] + 1) % len(SOLVERS))
         if inputs.pressed("fire"):
             self.nudged += 1
             self.touched = True
@@ -258,12 +266,15 @@ class Stacks(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        lost = max(self.sag["projection"] / (self.values["crates"] * SIZE), 0.0)
+        name = SOLVERS[int(self.values["column"])]
+        lost = max(self.sag[name] / (self.values["crates"] * SIZE), 0.0)
         good = lost < 1.0 / self.values["crates"]  # less than a crate
-        sentence = "Projection only pushes overlaps apart: its column of crates falls."
-        unit = "of its height lost"
-        headline = Headline(sentence, "left: fewer", f"{100 * lost:.0f} %", unit, self.since, SETTLED, "steps", good)
-        return headline.asks("Projection only pushes overlaps apart: does its column of crates stand?")
+        does = "only pushes overlaps apart" if name == "projection" else "keeps its impulses"
+        words = f"{plain_name(name).capitalize()} {does}"
+        number, unit = f"{100 * lost:.0f} %", "of its height lost"
+        sentence = f"{words}: its column of crates falls."
+        headline = Headline(sentence, "X: next solver", number, unit, self.since, SETTLED, "steps", good)
+        return headline.asks(f"{words}: does its column of crates stand?")
 
     def finding(self):
         """Return a sentence with the sag and sway of each column, and the time of a step."""

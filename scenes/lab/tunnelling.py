@@ -46,6 +46,7 @@ from scenes.lab.shots import (
 from scenes.lab.yard import HEAD
 
 LANES = ("off", "ray", "swept", "toi")
+WORDS = {"off": "Unswept", "ray": "Ray-cast", "swept": "Swept", "toi": "Timed"}
 TITLES = {
     "off": "off: only where it stands",
     "ray": "ray: along the centre's path",
@@ -83,8 +84,9 @@ class Tunnelling(Scene):
         Slider("speed", 300, 12000, 3600, "px/s", step=100),
         Slider("plate", 1, 16, 3, "px", step=1),
         Slider("shots", 0, 2, 0, choices=SHOTS),
+        Slider("lane", 0, len(LANES) - 1, 0, choices=LANES),  # the one that the title line is about
     )
-    actions = (("left right", "speed"), ("up down", "plate"), ("Space", "balls, rods, bullets"))
+    actions = (("X", "lane"), ("left right", "speed"), ("up down", "plate"), ("Space", "balls, rods, bullets"))
     broadphase = "sweep"
     draggable = True
     head = HEAD
@@ -126,7 +128,7 @@ class Tunnelling(Scene):
         A change of the plate or of the kind of shots removes all shots in flight, and builds the plates again.
         """
         super().change_slider(name, value)
-        if name != "speed":
+        if name in ("plate", "shots"):
             self.world.remove_bodies([*self.of_body, *self.spent])
             self.spent.clear()
             self.trials.clear()
@@ -139,6 +141,8 @@ class Tunnelling(Scene):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
                 self.change_slider(slider, self.values[slider] + way * notch)
+        if inputs.pressed("bomb"):
+            self.change_slider("lane", (int(self.values["lane"]) + 1) % len(LANES))
         if inputs.pressed("fire"):
             self.change_slider("shots", (int(self.values["shots"]) + 1) % len(SHOTS))
         self.world.remove_bodies(list(self.spent))
@@ -344,13 +348,14 @@ class Tunnelling(Scene):
 
     def headline(self):
         """Return the Headline: the sentence and the number in the scene's title line."""
-        kind, step = self.kind, self.values["speed"] / 60
-        missed, ended = self.missed[kind, "off"], self.hit[kind, "off"] + self.missed[kind, "off"]
+        kind, step, lane = self.kind, self.values["speed"] / 60, LANES[int(self.values["lane"])]
+        missed, ended = self.missed[kind, lane], self.hit[kind, lane] + self.missed[kind, lane]
+        how = WORDS[lane]
         what = "each other" if kind == "bullets" else f"a plate of {self.values['plate']} px"
-        sentence = f"Unswept, at {step:.0f} px a step, {kind} pass {what}."
-        number, unit = f"{missed} of {ended}", "went through (lane off)"
-        headline = Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
-        return headline.asks(f"Unswept, at {step:.0f} px a step, do {kind} pass {what}?")
+        sentence = f"{how}, at {step:.0f} px a step, {kind} pass {what}."
+        number, unit = f"{missed} of {ended}", f"went through (lane {lane})"
+        headline = Headline(sentence, "X: next lane", number, unit, ended, ENOUGH, kind, not missed)
+        return headline.asks(f"{how}, at {step:.0f} px a step, do {kind} pass {what}?")
 
     def finding(self):
         """Return a sentence with two figures for each lane: the missed shots, and the time of a step.

@@ -9,7 +9,6 @@ import physics
 from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, Canvas
 from game.drawing.headline import LARGE, Headline, draw_headline
 from game.input.devices import DeviceSource
-from game.input.inputs import InputFrame, InputState
 from game.run.picture import Picture
 from game.screens.play import Play
 from scenes import SCENES
@@ -86,33 +85,6 @@ def test_its_words_fit_with_every_value_of_the_sliders(name):
             scene.change_slider(slider.name, slider.start)
 
 
-@needs_speed
-@pytest.mark.parametrize(
-    "name, steps, goes_wrong",
-    [
-        ("lab/tunnelling", 120, "went through"),
-        ("lab/mask_sweep", 120, "passed"),
-        ("lab/stacks", 240, "height lost"),
-        ("lab/pyramid", 240, "lower"),
-        ("lab/card_house", 120, "fell"),
-        ("lab/cradle", 160, "balls leave"),
-        ("lab/sensors", 240, "unseen"),
-        ("lab/masks", 10, "false hit"),
-        ("lab/shapes", 5, "off the answer"),
-        ("lab/filters", 200, "overlaps were contacts"),
-        ("lab/dominoes", 330, "small row's speed"),
-        ("lab/conveyor", 330, "off at most, on the belt"),
-    ],
-)
-def test_a_lab_starts_in_its_failing_state(name, steps, goes_wrong):
-    scene = make_scene(name)
-    play = Play(scene, DeviceSource(), Silent())
-    for _ in range(steps):
-        play.step()
-    headline = scene.headline()
-    assert headline.known and not headline.good and goes_wrong in headline.unit, headline
-
-
 def test_overlays_do_not_cover_the_title_line():
     frames = []
     for layers in ((), ("bounds", "motion", "structure", "pairs", "contacts", "outlines")):
@@ -159,8 +131,9 @@ def test_a_number_waits_for_its_data():
         ("lab/stacks", {"crates": 4, "substeps": 8}, None),
         ("lab/sensors", {}, True),
         ("lab/sensors", {"speed": 60, "scanner": 300}, False),
-        ("lab/ghost_bumps", {}, False),
-        ("lab/ghost_bumps", {"speed": 600}, False),
+        ("lab/sensors", {"events": 1}, False),
+        ("lab/ghost_bumps", {}, True),
+        ("lab/ghost_bumps", {"speed": 600, "solver": 1}, False),
         ("lab/disagreement", {}, None),
         ("lab/shapes", {}, True),
         ("lab/shapes", {"step": 24}, False),
@@ -169,10 +142,10 @@ def test_a_number_waits_for_its_data():
         ("lab/conveyor", {}, True),
         ("lab/conveyor", {"speed": 60}, False),
         ("lab/filters", {}, True),
-        ("lab/tumbler", {}, False),
-        ("lab/tumbler", {"speed": 2.0}, False),
-        ("lab/one_way", {}, False),
-        ("lab/one_way", {"throw every": 20}, False),
+        ("lab/tumbler", {}, True),
+        ("lab/tumbler", {"speed": 2.0, "substeps": 4}, False),
+        ("lab/one_way", {}, True),
+        ("lab/one_way", {"throw every": 20, "planks": 1}, False),
     ],
 )
 def test_a_sentence_claims_only_what_the_number_shows(name, values, fails):
@@ -185,24 +158,3 @@ def test_a_sentence_claims_only_what_the_number_shows(name, values, fails):
         assert headline.sentence.endswith("?") == (headline.good or not headline.known), headline
         play.step()
     assert fails is None or headline.good != fails, headline
-
-
-@needs_speed
-@pytest.mark.parametrize(
-    "name, keys, number",
-    [
-        ("lab/shapes", ["confirm"] * 2, "0"),
-        ("lab/filters", ["fire"], None),
-        ("lab/dominoes", ["up"] * 3, None),
-        ("lab/conveyor", ["left"] * 6, "0.0 %"),
-    ],
-)
-def test_the_key_that_the_title_line_names_mends_it(name, keys, number):
-    scene, inputs = make_scene(name), InputState()
-    for step in range(600):
-        key = keys[step // 2 - 1] if step % 2 == 0 and 0 < step // 2 <= len(keys) else None
-        inputs.set(InputFrame(frozenset((key,) if key else ())))
-        scene.step(inputs)
-    headline = scene.headline()
-    assert headline.known and headline.good and headline.sentence.endswith("?"), headline
-    assert number is None or headline.number == number

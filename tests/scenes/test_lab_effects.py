@@ -148,7 +148,7 @@ def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
         assert moving["awake"].all() and np.array_equal(
             moving["x"], lab.real.world.bodies["x"][lab.real.world.bodies["kind"] == DYNAMIC]
         )
-        lab.figures[name] = RunFigures(Cost.of([3e-4 if on else 1e-4] * RUNS, WINDOW))
+        lab.figures[name] = RunFigures(Cost.of([3e-4 if how == "with" else 1e-4] * RUNS, WINDOW))
     assert lab.price("friction").seconds == pytest.approx(2e-4)
     lab.change("broadphase", "sweep")
     assert lab.price("friction") is None, "other settings cost something else"

@@ -120,6 +120,7 @@ def test_the_picture_of_a_shape_is_the_shape():
 
 def test_the_hero_drops_through_a_plank_and_stands_on_the_next():
     scene = make("lab/one_way")
+    scene.change("slider:planks", 1)
     scene.hero.move_to((100.0, 8 * 16 - 10.0))
     hands = Hands(scene)
     for _ in range(5):

@@ -65,7 +65,10 @@ def bodies_of(scene):
 
 @needs_speed
 def test_without_sleep_nobody_sleeps_and_nothing_wakes():
-    scene, _ = played(SETTLE, sleep=0)
+    scene, session = played(1)
+    scene.change("slider:sleep", 0)
+    for _ in range(SETTLE):
+        session.step()
     assert scene.awake == scene.heaped - 5 and scene.asleep == 0 and scene.slept_at < 0
     assert not next(goal for goal in scene.check() if goal.due == SETTLE).met
     assert scene.measured() is None, "there is nothing to compare"
