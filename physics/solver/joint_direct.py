@@ -475,7 +475,7 @@ def begin_trees(context, joints_inout, motions_inout):
         return 0
     add_inertia(s.rows, s.order, context.h, s.table, motions_inout)
     place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
-    begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.schur)
+    begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.forest, s.schur)
     return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
 
 
@@ -521,7 +521,7 @@ def close_gaps(any_wide, context, joints_inout, motions_inout):
         return
     if any_wide:
         translate_open_trees(s.rows, s.order, context, s.table, s.schur, motions_inout)
-        begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.schur)
+        begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.forest, s.schur)
         factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
     aim_gaps(s.rows, s.order, s.counts, context, s.table, motions_inout, s.tree_rows)
     solve_pseudo_velocities(context.push_speed, s.forest, s.tree_rows, motions_inout)

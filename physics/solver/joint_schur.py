@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import inlined, kernel, subkernel
-from physics.solver.joint_rows import coordinate_of, has_limits, has_motor, write_line, write_turn
+from physics.solver.joint_rows import coordinate_of, has_limits, has_motor, point_inverse_mass, write_line, write_turn
 from physics.solver.joint_trees import (
     MOST_ROWS,
     NO_SLOT,
@@ -34,7 +34,7 @@ from physics.solver.joint_trees import (
     spread_impulses,
 )
 from physics.solver.motions import change_velocity
-from physics.tables.joint import ANGLE, GEARED
+from physics.tables.joint import ANGLE, GEARED, PINNED
 from physics.tables.table import in_lines, zeros_in_lines
 
 # A tree has rows beside it up to these numbers: beyond, passes over the joints cost less.
@@ -45,7 +45,9 @@ MOST_WORK = 16384  # rows of loops times bodies of a tree: a column of S costs 4
 LOWER, UPPER, MOTOR = MOST_ROWS, MOST_ROWS + 1, MOST_ROWS + 2
 AT_LOW, FREE_ROW, AT_HIGH = -1, 0, 1  # states of a row: its impulse is at a bound, or between its bounds
 NO_TREE, ANY_TREE = -2, -1
-DEPENDENT = 1e-11  # relative to the pivot without other joints; up to this value a row is redundant
+# Relative pivots up to which a row is redundant; DOUBLED: if several joints connect the same two bodies.
+DEPENDENT, DOUBLED = 1e-11, 1e-5
+GAP_SHARE = 100.0  # factor on what the gaps of such joints may have added to a pivot; up to it a row is redundant too
 LOCAL_CHANGES = 4.0  # see bound_motor
 ROUNDING = 1e-12  # relative error of a velocity that counts as rounding
 PATIENCE = 3  # rounds of pivoting without progress, after which only one row changes its state in a round
@@ -64,6 +66,7 @@ SCHUR_ROW = in_lines(
         ("slot_b", np.int32),
         ("state", np.int32),  # AT_LOW, FREE_ROW or AT_HIGH
         ("next_state", np.int32),  # scratch
+        ("pair", np.int32),  # slot of one body if the other is its parent in the tree, else NO_SLOT
         ("is_known", np.bool_),  # the column of S has been computed
         ("ax", np.float64),  # Jacobian of body A …
         ("ay", np.float64),
@@ -74,6 +77,7 @@ SCHUR_ROW = in_lines(
         ("rhs", np.float64),  # wanted velocity, with bias
         ("compliance", np.float64),  # 0: rigid
         ("scale", np.float64),  # pivot without other joints
+        ("dependent", np.float64),  # share of it up to which a pivot makes the row redundant, see begin_schur
         ("low", np.float64),  # bounds of `change`
         ("high", np.float64),
         ("impulse", np.float64),  # of a motor: magnitude of its impulse
@@ -82,7 +86,7 @@ SCHUR_ROW = in_lines(
     ]
 )
 
-# A tree with rows beside it, or the root slot of any tree while rows are counted.
+# A tree with rows beside it, or the root slot of any tree while rows are counted. `dependent` belongs to each slot.
 SCHUR_TREE = in_lines(
     [
         ("loops", np.int32),  # number of rows of joints that close loops
@@ -97,6 +101,7 @@ SCHUR_TREE = in_lines(
         ("first_slot", np.int32),  # index of its first slot in Schur.slots …
         ("slots", np.int32),  # … and their number
         ("at", np.int64),  # index of its first entry in Schur.matrix
+        ("dependent", np.float64),  # of the rows between a body and its parent, see SCHUR_ROW
     ]
 )
 
@@ -161,6 +166,14 @@ def tree_of_joint(joint, motions, schur):
 
 
 @inlined
+def pair_of_joint(joint, forest, schur):
+    """Return the slot of one body of a JOINT row if the other body is its parent in the tree, else NO_SLOT."""
+    a, b = schur.slot_of[joint.motion_a], schur.slot_of[joint.motion_b]
+    is_child = a >= 0 and b >= 0 and forest.bodies[a].parent == b
+    return a if is_child else (b if a >= 0 and b >= 0 and forest.bodies[b].parent == a else NO_SLOT)
+
+
+@inlined
 def number_of_limits(joint):
     """Return how many limits bound the coordinate of a JOINT row, 0 to 2. Equal limits count as none."""
     count = (1 if joint.lower > -math.inf else 0) + (1 if joint.upper < math.inf else 0)
@@ -195,7 +208,7 @@ def count_schur(
         body, t = f.bodies[slot], s.trees[slot]
         s.tree_of[slot] = slot if body.parent < 0 else s.tree_of[body.parent]
         t.loops, t.limits, t.motors, t.count, t.slots, t.anchors = 0, 0, 0, 0, 0, 0
-        t.is_coupled = False
+        t.is_coupled, t.dependent = False, DEPENDENT
         s.trees[s.tree_of[slot]].slots += 1
         s.trees[s.tree_of[slot]].anchors += 1 if body.is_fixed else 0
         if not body.is_fixed:
@@ -250,11 +263,11 @@ def place_blocks(size, schur_inout):
 
 
 @subkernel
-def add_part(index, part, joint, schur_inout):
+def add_part(index, part, joint, pair, schur_inout):
     """Append a Schur row for a joint to the rows of its tree.
 
     index: index of the joint in JointSet.rows; part: LOWER, UPPER or MOTOR, or the number of the joint's own row if the
-    joint closes a loop; joint: JOINT row.
+    joint closes a loop; joint: JOINT row; pair: see SCHUR_ROW.
     """
     s = schur_inout
     a, b = s.slot_of[joint.motion_a], s.slot_of[joint.motion_b]
@@ -263,7 +276,7 @@ def add_part(index, part, joint, schur_inout):
     t.count += 1
     row.joint, row.part = index, part
     row.motion_a, row.motion_b = joint.motion_a, joint.motion_b
-    row.slot_a, row.slot_b = a, b
+    row.slot_a, row.slot_b, row.pair = a, b, pair
     row.is_known = False
 
 
@@ -285,35 +298,58 @@ def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_ino
         tree = NO_TREE if j.hold >= GEARED else tree_of_joint(j, motions, s)
         if tree < 0:
             continue
+        pair = pair_of_joint(j, forest, s)
         if s.trees[tree].loops > 0 and not taken[k]:
             for part in range(row_counts[k]):
-                add_part(k, part, j, s)
+                add_part(k, part, j, pair, s)
             j.direct = j.direct or row_counts[k] > 0
+            if pair >= 0:
+                s.trees[pair].dependent = DOUBLED
         j.exact_limits = s.trees[tree].limits > 0 and has_limits(j)
         j.exact_motor = s.trees[tree].motors > 0 and has_motor(j)
         if j.exact_limits and j.lower > -math.inf:
-            add_part(k, LOWER, j, s)
+            add_part(k, LOWER, j, pair, s)
         if j.exact_limits and j.upper < math.inf:
-            add_part(k, UPPER, j, s)
+            add_part(k, UPPER, j, pair, s)
         if j.exact_motor:
-            add_part(k, MOTOR, j, s)
+            add_part(k, MOTOR, j, pair, s)
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
 
 
+@inlined
+def share_of_gap(joint, a, b):
+    """Return what a gap of a pin may add to the pivot of a row, over the pivot of the pin. a, b: MOTION rows."""
+    k_11, _, k_22 = point_inverse_mass(joint, a, b)
+    gap = joint.apart_x * joint.apart_x + joint.apart_y * joint.apart_y
+    return gap * (a.inverse_inertia + b.inverse_inertia) / (k_11 + k_22) if k_11 + k_22 > 0.0 else 0.0
+
+
 @subkernel
-def begin_schur(rows, joints, tree_rows, motions, schur_inout):
+def begin_schur(rows, joints, tree_rows, motions, forest, schur_inout):
     """Write the Jacobians of the Schur rows at the present poses. O(rows).
 
-    The columns of the Schur complement are marked as not computed. rows: indices of the JOINT rows of the group;
-    joints: all JOINT rows, after place_joint; tree_rows: JOINT_ROW rows of the joints of `rows`; motions: MOTION rows.
+    The columns of the Schur complement are marked as not computed. Joints between the same two bodies may contradict
+    one another, such as two pins and a limit of a slider. Without gaps, one of their rows would be redundant. A gap is
+    an error of the moment arms, and adds up to gap² / I to the pivot of this row. Such a small pivot would cause a huge
+    impulse, so SCHUR_ROW.dependent is raised for such rows.
+
+    rows: see JointSet; joints: all JOINT rows, after place_joint; tree_rows: JOINT_ROW rows of the joints of `rows`;
+    motions: MOTION rows; forest: see Forest.
     """
     s = schur_inout
+    for k in range(len(rows) if s.counts[0] > 0 else 0):
+        j = joints[rows[k]]
+        pair = pair_of_joint(j, forest, s) if j.direct and j.hold == PINNED else NO_SLOT
+        if pair >= 0 and s.trees[pair].dependent >= DOUBLED:
+            share = GAP_SHARE * share_of_gap(j, motions[j.motion_a], motions[j.motion_b])
+            s.trees[pair].dependent = max(s.trees[pair].dependent, share)
     for i in range(s.counts[0]):
         r = s.rows[i]
         j = joints[rows[r.joint]]
         r.is_known = False
+        r.dependent = s.trees[r.pair].dependent if r.pair >= 0 else DEPENDENT
         r.compliance = 0.0
         if r.part < MOST_ROWS:
             t = tree_rows[MOST_ROWS * r.joint + r.part]
@@ -577,7 +613,7 @@ def solve_free(count, tree, schur_inout):
             entry = s.factor[line + q]
             s.factor[line + q] = entry * s.factor[q * count + q]
             pivot -= entry * s.factor[line + q]
-        if not pivot > DEPENDENT * r.scale:
+        if not pivot > r.dependent * r.scale:
             pivot = (pivot if pivot > 0.0 else 0.0) + r.scale
         s.factor[line + p] = 1.0 / pivot if pivot > 0.0 else 0.0
         s.values[p] = value * s.factor[line + p]
