@@ -1,4 +1,4 @@
-"""Command `python -m tests.fuzz --minutes N [--seed S] [--workers N]`: run random programs for some minutes."""
+"""Command `python -m tests.fuzz --minutes N [--seed S] [--workers N] [--effect E]`: run random programs."""
 
 import argparse
 import multiprocessing
@@ -9,15 +9,15 @@ from tests.fuzz.running import script_of, write_program
 from tests.fuzz.shrinking import shrink
 
 
-def worker(first, apart, until, found):
+def worker(first, apart, until, effect, found):
     """Run the programs of the seeds first, first + apart, ... until the time `until`; put failures into the queue
-    `found`.
+    `found`. effect: see write_program.
     """
     kinds, done = set(), 0
     for seed in range(first, first + 10**9, apart):
         if time.time() > until:
             break
-        lines, failure, strategy = write_program(seed)
+        lines, failure, strategy = write_program(seed, effect=effect)
         done += 1
         if failure is not None and failure.kind not in kinds:
             kinds.add(failure.kind)
@@ -32,10 +32,11 @@ def main():
     parser.add_argument("--minutes", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=0, help="of the first program; the others follow")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--effect", help="only programs whose world has this effect, such as joints")
     options = parser.parse_args()
     found, until = multiprocessing.Queue(), time.time() + 60.0 * options.minutes
     processes = [
-        multiprocessing.Process(target=worker, args=(options.seed + k, options.workers, until, found))
+        multiprocessing.Process(target=worker, args=(options.seed + k, options.workers, until, options.effect, found))
         for k in range(options.workers)
     ]
     for process in processes:

@@ -12,6 +12,7 @@ import numpy as np
 
 import physics
 from tests.fuzz.invariants import Broken, Watch
+from tests.fuzz.joint_invariants import JointWatch
 from tests.fuzz.writing import Writer
 
 PHYSICS = str(Path(physics.__file__).parent)
@@ -36,7 +37,7 @@ def space_of():
 
 def is_documented(error):
     """Return whether an error is a documented one: raised by a raise statement in physics for an invalid argument."""
-    if not isinstance(error, (ValueError, TypeError, RuntimeError, KeyError)):
+    if not isinstance(error, (ValueError, TypeError, RuntimeError, KeyError, AttributeError)):
         return False
     last = traceback.extract_tb(error.__traceback__)[-1]
     if not last.filename.startswith(PHYSICS):
@@ -52,7 +53,7 @@ class Runner:
     """
 
     def __init__(self, strategy=None):
-        self.space, self.watch, self.strategy = space_of(), None, strategy
+        self.space, self.watches, self.strategy = space_of(), [], strategy
         self.lines, self.digests = [], []
 
     def run(self, line):
@@ -85,33 +86,36 @@ class Runner:
         times, line = (int(loop[1]), loop[2]) if loop else (1, line)
         code = compile(line, PROGRAM, "exec")
         for _ in range(times):
-            before = self.watch.before() if self.watch else None
+            before = [watch.before() for watch in self.watches]
             try:
                 exec(code, self.space)
             except Exception as error:
                 if not is_documented(error):
                     raise
-                if self.watch:
-                    self.watch.unchanged(before, error)
+                for watch, state in zip(self.watches, before, strict=True):
+                    watch.unchanged(state, error)
                 return
-            if self.watch is None:
+            if not self.watches:
                 if "world" not in self.space:
                     return
-                self.watch = Watch(self.space["world"])
+                world = self.space["world"]
+                self.watches = [Watch(world), *([JointWatch(world)] if world.effects.joints else [])]
                 if self.strategy is not None:
-                    self.space["world"].broadphase = eval(self.strategy, self.space)
+                    world.broadphase = eval(self.strategy, self.space)
             elif line.startswith("world.step("):
-                self.watch.after_step()
+                for watch in self.watches:
+                    watch.after_step()
                 self._step_twin(line)
             else:
-                self.watch.after_edit(line, self.space)
+                for watch in self.watches:
+                    watch.after_edit(line, self.space)
                 self._forget_twin(line)
 
     def _step_twin(self, line):
         """Step the restored copy of the world, if there is one, and check that it still equals the world."""
         if "twin" in self.space:
             exec(line.replace("world", "twin"), self.space)
-            self.watch.alike(self.space["twin"])
+            self.watches[0].alike(self.space["twin"])
 
     def _forget_twin(self, line):
         asks = ("world.ray", "world.shape_cast", "world.overlap", "world.query", "world.closest")
@@ -148,14 +152,15 @@ def failure_of(lines, strategy=None):
     return None
 
 
-def write_program(seed, lines=LINES):
+def write_program(seed, lines=LINES, effect=None):
     """Write a random program, and run each line as it is written. Return (lines, failure or None, strategy).
 
+    effect: name of an effect that its world has; None: any effects.
     A program without a failure is run again with another broad phase. strategy: source text of this broad phase, None
     if the program failed before.
     """
     rng = random.Random(seed)
-    writer, runner = Writer(rng), Runner()
+    writer, runner = Writer(rng, effect), Runner()
     failure = runner.run(writer.first())
     while failure is None and len(runner.lines) < lines:
         failure = runner.run(writer.next(runner.space))

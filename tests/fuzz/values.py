@@ -12,6 +12,8 @@ FAMILIES = (  # each compiles kernels of its own: without numba any valid set is
     [*PUSHING, "carving"],
     "response gravity rotation friction restitution stacking continuous sleeping sensors".split(),
     [*PUSHING, "stacking", "sleeping", "carving"],
+    "response gravity rotation friction restitution stacking continuous sleeping sensors joints".split(),
+    [*PUSHING, "stacking", "sleeping", "carving", "joints"],
 )
 STRATEGIES = ("BruteForce()", "SweepAndPrune()", "SpatialHashGrid()", "DynamicTree()", 'SweepAndPrune(axes="both")')
 MOVING = ("circle", "circle", "box", "box", "plank", "hull", "rounded", "capsule", "mask", "mask", "bounds")
@@ -52,11 +54,11 @@ class Values:
     def dt(self):
         return self.rng.choice((0.0, 1e-6, 0.004, 1 / 120, 1 / 60, 1 / 30, 0.1))
 
-    def effects(self):
-        """Return the names of a random valid set of effects."""
+    def effects(self, effect=None):
+        """Return the names of a random valid set of effects. effect: name of an effect in it; None: any."""
         if JIT:
-            return list(self.rng.choice(FAMILIES))
-        names = [field.name for field in fields(Effects) if self.chance(0.6)]
+            return list(self.rng.choice([names for names in FAMILIES if effect is None or effect in names]))
+        names = [field.name for field in fields(Effects) if field.name == effect or self.chance(0.6)]
         while True:
             try:
                 Effects(**{name: True for name in names})

@@ -2,32 +2,38 @@
 
 import re
 
-from physics import SOLVERS, STATIC
+from physics import SOLVERS, STATIC, Joint
 from physics.step import STACKING
+from tests.fuzz.joint_lines import JointLines
 from tests.fuzz.values import STRATEGIES, Values
 
 KINDS = ("dynamic", "dynamic", "dynamic", "static", "kinematic")
 MOST = 16  # bodies: one step takes a tenth of a millisecond
-STEP = 12  # of so many lines and this many, this many are steps
+JOINTS = 0.5  # share of lines about joints among the edits of a world with joints
 
 
 class Writer:
-    """Generator of lines for a namespace in which the previous lines have been run."""
+    """Generator of lines for a namespace in which the previous lines have been run.
 
-    def __init__(self, rng):
-        self.rng, self.values, self.named = rng, Values(rng), 0
+    effect: name of an effect that the world has; None: any effects.
+    """
+
+    def __init__(self, rng, effect=None):
+        self.rng, self.values, self.named, self.effect = rng, Values(rng), 0, effect
+        self.joint_lines = JointLines(self.values)
         self.edits = [getattr(self, name) for name in sorted(dir(self)) if name.startswith("edit_")]
         self.asks = [getattr(self, name) for name in sorted(dir(self)) if name.startswith("ask_")]
 
     def first(self):
         """Return the line that makes the world."""
         v, rng = self.values, self.rng
-        names = v.effects()
+        names = v.effects(self.effect)
         self.stacking = "stacking" in names
         said = ", ".join([f"{name}=True" for name in names if name != "narrowphase"])
         if "narrowphase" not in names and names:
             said = f"narrowphase=False, {said}" if v.chance(0.3) else said
-        more = [f"solver={rng.choice([None, *self._solvers()])!r}"]
+        solvers = [*STACKING] * 3 if "joints" in names else []  # the others solve no joints
+        more = [f"solver={rng.choice([None, *solvers, *self._solvers()])!r}"]
         v.one_way = "one_way" in names
         more += [f"gravity={v.pair(400.0)}"] if "gravity" in names and v.chance(0.3) else []
         more += [f"drag={v.number(0.0, 2.0)}"] if {"drag", "wind"} & set(names) and v.chance(0.3) else []
@@ -49,6 +55,8 @@ class Writer:
             return self.rng.choice(self.asks)()
         if kind < 0.7 and (heroes := self._living(r"hero\d+")):
             return self.walk(self.rng.choice(heroes))
+        if self.world.effects.joints and self.values.chance(JOINTS):
+            return self.joint_lines.next(self.world, self._joints())
         bodies = [f"b{name}" for name in self._living(r"b\d+", start=1)]
         bodies += (
             [f"world.body({each})" for each in self.world.bodies["id"].tolist()] if self.values.chance(0.2) else []
@@ -65,6 +73,11 @@ class Writer:
             if re.fullmatch(pattern, name) and getattr(value, "body", value) in self.world:
                 found.append(name[start:])
         return found
+
+    def _joints(self):
+        """Return texts of the joints in the world: mostly names of the namespace, some ids."""
+        names = [name for name, value in self.space.items() if isinstance(value, Joint) and value in self.world]
+        return names + [f"world.joint({each})" for each in self.world.joints["id"].tolist()[:4]]
 
     def _solvers(self):
         return list(SOLVERS) if self.stacking else [name for name in SOLVERS if name not in STACKING]
@@ -218,7 +231,7 @@ class Writer:
                 ("wind", v.pair(200.0)),
                 ("drag", v.number(0.0, 3.0)),
                 ("dt", rng.choice((1 / 240, 1 / 60, 1 / 30))),
-                ("substeps", rng.randint(1, 8)),
+                ("substeps", rng.choice((rng.randint(1, 8), 4, "'auto'"))),
                 ("broadphase", rng.choice(STRATEGIES)),
                 ("broadphase", rng.choice(STRATEGIES)),
                 ("solver", repr(rng.choice(self._solvers()))),
