@@ -16,6 +16,7 @@ from physics import World
 from physics.collision.manifold import by_parent
 
 MICRO, NANO = 1e6, 1e9
+CATEGORIES = 32  # bits of a filter
 IMPULSE = "mass px/s"  # unit of impulses
 
 
@@ -101,21 +102,30 @@ def _broad_phase(world, touch):
 def _filter(world, touch):
     rows = world.shapes
     a, b = (rows[rows["id"] == each][0] for each in (touch.shape_a, touch.shape_b))
-    ways = [f"{int(s['membership']):#x} is in {int(t['mask']):#x}" for s, t in ((a, b), (b, a))]
-    return Part("filter", f"{ways[0]}, and {ways[1]}: they may meet")
+    ways = [
+        f"{name} is in {_categories(s['membership'])}, {other} meets {_categories(t['mask'])}"
+        for name, s, other, t in (("A", a, "B", b), ("B", b, "A", a))
+    ]
+    return Part("filter", f"{ways[0]}; {ways[1]}: they may meet")
+
+
+def _categories(bits):
+    """Return the categories of a filter, 1 to 32, as text. bits: int, one bit for each category."""
+    found = [k + 1 for k in range(CATEGORIES) if int(bits) >> k & 1]
+    if len(found) == CATEGORIES:
+        return "all categories"
+    name = "category" if len(found) == 1 else "categories"
+    return f"{name} {', '.join(map(str, found))}" if found else "no category"
 
 
 def _narrow_phase(world, touch, mine):
     deepest = mine[np.argmin(mine["separation_1"])]
     points = count_text(int(mine["count"].sum()), "point")
     gaps = [float(deepest["separation_1"])] + ([float(deepest["separation_2"])] if deepest["count"] > 1 else [])
-    how = ", ".join(f"{-gap:.3f} px deep" if gap <= 0.0 else f"{gap:.3f} px apart" for gap in gaps)
+    how = ", ".join(f"{abs(gap):.3f} px {'apart' if gap > 0.0 else 'deep'}" for gap in gaps)
     angle = degrees(atan2(float(deepest["normal_y"]), float(deepest["normal_x"])))
-    features = " ".join(f"{int(deepest[name]):x}" for name in ("feature_1", "feature_2")[: len(gaps)])
     again = ", used again as it was" if int(deepest["previous"]) >= 0 else ""
-    text = (
-        f"{points}: {how}; normal at {angle:.0f} deg from {touch.body_a} to {touch.body_b}, features {features}{again}"
-    )
+    text = f"{points}: {how}; normal at {angle:.0f} deg, from A to B{again}"
     return Part("narrow phase", text + _stage(world, "narrow_phase"))
 
 

@@ -44,7 +44,10 @@ def test_the_way_of_a_box_at_rest_on_the_ground():
         "solver, soft step, 4 substeps",
     ]
     assert "pair 1 of 1" in reported["broad phase, hash"]
-    assert reported["filter"].startswith("0xffffffff is in 0xff, and 0x2 is in 0xffffffff")
+    expected = (
+        "A is in all categories, B meets categories 1, 2, 3, 4, 5, 6, 7, 8; B is in category 2, A meets all categories"
+    )
+    assert reported["filter"] == f"{expected}: they may meet"
     depth = -float(world.contacts["separation"].min())
     assert "2 points" in reported["narrow phase"] and "normal at -90 deg" in reported["narrow phase"]
     assert any(f"{abs(d):.3f} px" in reported["narrow phase"] for d in world.contacts["separation"]), depth

@@ -14,7 +14,7 @@ from game.measure import contact_inspector, joint_inspector
 from game.measure.contact_inspector import NANO, Part, Touch
 from game.measure.timing import Cost
 from game.scene import Scene
-from game.screens.parts.joint_mark import draw_joint_mark
+from game.screens.parts.joint_mark import draw_bodies, draw_joint_mark, draw_letters
 from game.screens.parts.lab_card import covered, least_covering
 from physics import World
 
@@ -54,7 +54,7 @@ class ContactSubject:
         return isinstance(other, ContactSubject) and (other.touch.shape_a, other.touch.shape_b) == mine
 
     def title(self, world: World) -> str:
-        return f"Why do {self.touch.body_a} and {self.touch.body_b} touch?"
+        return f"Why do A (body {self.touch.body_a}) and B (body {self.touch.body_b}) touch?"
 
     def parts(self, world: World) -> list[Part]:
         cost = contact_inspector.cost_of(world, self.touch)
@@ -65,7 +65,9 @@ class ContactSubject:
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> list[pygame.Rect]:
         place = lens.points(self.touch.x, self.touch.y)
-        scale = frame.text_scale
+        scale, ids = frame.text_scale, (self.touch.body_a, self.touch.body_b)
+        draw_bodies(frame, lens, world, ids)
+        draw_letters(frame, lens, world, ids)
         if lens.clip.collidepoint(place):
             pygame.draw.circle(frame.surface, GOLD, place, 4 * scale, max(1, scale))
         ring = pygame.Rect(0, 0, 12 * scale, 12 * scale)

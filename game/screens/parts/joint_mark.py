@@ -1,4 +1,9 @@
-"""Mark of the inspected joint in the picture: its bodies, its anchors, axis and limits, and its force on body B."""
+"""Marks of the inspector in the picture: the bodies A and B of a joint or contact, and what a joint does.
+
+A joint is drawn with its anchors, axis and limits, and its force on body B.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
 import pygame
@@ -30,22 +35,34 @@ def draw_joint_mark(frame: Frame, lens: Lens, world: World, identity: int) -> li
     world.joint(identity)
     rows = anchored(world)
     row = rows[rows["joint"] == identity]
-    surface = frame.surface
+    surface, ids = frame.surface, [row[f"body_{side}"].item() for side, _ in SIDES]
+    draw_bodies(frame, lens, world, ids)
     surface.set_clip(lens.clip)
-    for side, color in SIDES:
-        if row[f"body_{side}"].item() != WORLD:
-            _draw_body(frame, lens, world, row[f"body_{side}"].item(), color)
     layer = Joints(identity, FORCE)
     layer.begin()
     layer.draw(frame, lens, world)
     for x, y in {(row[f"{side}x"].item(), row[f"{side}y"].item()) for side, _ in SIDES}:
         pygame.draw.circle(surface, GOLD, lens.points(x, y), RING * frame.text_scale, max(1, frame.text_scale))
     surface.set_clip(None)
-    for side, color in SIDES:
-        if row[f"body_{side}"].item() != WORLD:
-            _draw_letter(frame, lens, world, row[f"body_{side}"].item(), side, color)
+    draw_letters(frame, lens, world, ids)
     layer.draw_labels(frame)
     return _boxes(frame, lens, world, row)
+
+
+def draw_bodies(frame: Frame, lens: Lens, world: World, ids: Sequence[int]) -> None:
+    """Draw the outlines of the bodies A and B. ids: ids of both, WORLD for none."""
+    frame.surface.set_clip(lens.clip)
+    for identity, (_, color) in zip(ids, SIDES, strict=True):
+        if identity != WORLD:
+            _draw_body(frame, lens, world, identity, color)
+    frame.surface.set_clip(None)
+
+
+def draw_letters(frame: Frame, lens: Lens, world: World, ids: Sequence[int]) -> None:
+    """Write the letters A and B at two bodies. ids: ids of both, WORLD for none."""
+    for identity, (side, color) in zip(ids, SIDES, strict=True):
+        if identity != WORLD:
+            _draw_letter(frame, lens, world, identity, side, color)
 
 
 def _boxes(frame, lens, world, row):

@@ -39,7 +39,7 @@ def status_of(play: Played) -> tuple[str, Color]:
     if play.step_inspector.open:
         return "", GOLD
     if clock.paused:
-        return "FROZEN   P goes on   O one step   E into it   R restart   Esc menu", GOLD
+        return "FROZEN   P goes on   O one step   E into it   click a contact: why?   R restart   Esc menu", GOLD
     if clock.speed < 1.0:
         return f"SPEED {clock.speed:.0%}   - slower   + faster", GOLD
     if play.person and scene.result is not None:
