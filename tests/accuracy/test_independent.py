@@ -1,9 +1,9 @@
-"""The main charts of the report, compared with values computed without this project's code."""
+"""The main charts of the report, compared with values and ratios of times from other programs."""
 
 import pytest
 
 pytest.importorskip("shapely")
-from tests.accuracy import independent  # noqa: E402
+from tests.accuracy import independent, independent_times  # noqa: E402
 from tests.accuracy.independent import CHARTS, Point, interval  # noqa: E402
 
 
@@ -42,3 +42,21 @@ def test_points_and_intervals():
     middle, half = interval(50, 100)
     assert middle == pytest.approx(0.5) and 0.1 < half < 0.2
     assert interval(0, 100)[0] > 0.0
+
+
+@pytest.mark.parametrize("count", independent_times.COUNTS)
+def test_the_ratio_of_chart_14_has_a_kept_value_beside_it(count):
+    low, middle, high = independent_times.kept_ratio(count)
+    assert 0.0 < low <= middle <= high
+
+
+@pytest.mark.parametrize("count", [20, 60])
+def test_the_second_program_finds_the_same_hits_and_a_ratio(count):
+    """All frames of a round are compared, so that both programs do the same work."""
+    assert independent_times.ratio_here(count, rounds=1) > 0.0
+
+
+def test_programs_that_find_other_hits_are_not_timed(monkeypatch):
+    monkeypatch.setattr(independent_times.Sky, "in_pygame", lambda sky: lambda frame: set())
+    with pytest.raises(ValueError, match="frame 1 of 60 sprites"):
+        independent_times.ratio_here(60, rounds=1)

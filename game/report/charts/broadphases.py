@@ -215,7 +215,8 @@ def _jobs(scope: ReportScope) -> list[Job]:
                 params = {"layout": layout, "n": n, "moving": moving}
                 name = f"broadphases/{layout}-{moving}-{n}".replace(" ", "-")
                 found.append(Job(name, f"{__name__}:measure", params, 0.1 + n / 700))
-    return found + [Job(f"broadphases/speed-{v:g}", f"{__name__}:measure_speed", {"speed": v}, 1.5) for v in SPEEDS]
+    speeds = SPEEDS[::4] if scope.quick else SPEEDS
+    return found + [Job(f"broadphases/speed-{v:g}", f"{__name__}:measure_speed", {"speed": v}, 1.5) for v in speeds]
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:

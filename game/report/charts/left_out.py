@@ -20,6 +20,7 @@ from physics import Capsule, Circle, Effects, Filter, Polygon, World
 BODIES, SPACING, SPEED = 1000, 22.0, 12.0  # [px], [px/s]: few leave the others during a measurement
 RADIUS = 12.0  # [px]: some three pairs of boxes for each body
 SHARES = (0.0, 0.3, 0.7, 1.0)  # of the bodies that collide with none
+STEPS = 20  # of a run
 SAVES = 0.9  # greatest ratio of times that is a saving
 SHAPES = ("upright boxes", "discs", "octagons", "thin capsules", "planes' pixels")
 FILTERED, SKIPPED = "filtered before the narrow phase", "narrow phase left out"
@@ -67,7 +68,7 @@ def measure_filters() -> list[Row]:
             pairs = world.touching()
             found["after"] = pairs[(pairs >= world.bodies["id"][0] + count).all(axis=1)]
 
-        costs = timed_steps({"before": reject, "after": drop})
+        costs = timed_steps({"before": reject, "after": drop}, STEPS)
         if not np.array_equal(found["before"], found["after"]):
             raise RuntimeError(f"{100 * share:g} % collide with none: a filter changes the hits of the others")
         rows += [
@@ -120,7 +121,7 @@ def measure_skipped() -> list[Row]:
                 "wrong": counted(wrong if name == "without" else Rate(0, wrong.total)),
                 "cost": spread(cost),
             }
-            for name, cost in timed_steps({name: world.step for name, world in worlds.items()}).items()
+            for name, cost in timed_steps({name: world.step for name, world in worlds.items()}, STEPS).items()
         ]
     return rows
 

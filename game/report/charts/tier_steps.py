@@ -21,7 +21,7 @@ EXACT = "pixels"
 DT = 1.0 / 60.0  # [s]
 WAY = 3  # frames in one direction
 SIZES = {"in the cache": (300, 30.0), "out of the cache": (10_000, 20.0)}  # sprites, and their mean distance [px]
-RUNS, FRAMES = {"in the cache": 5, "out of the cache": 3}, {"in the cache": 60, "out of the cache": 3}
+RUNS, FRAMES = {"in the cache": 5, "out of the cache": 3}, {"in the cache": 20, "out of the cache": 3}
 SLOW = ("parts", "outline")  # tiers of many shapes, whose step out of the cache takes seconds
 PANELS = {name: f"whole steps, {count:,} sprites, {name}" for name, (count, _) in SIZES.items()}
 

@@ -245,5 +245,5 @@ def test_a_filter_and_a_narrow_phase_change_the_work_and_not_the_hits(monkeypatc
     assert wrong["upright boxes"].count == 0 and all(0.1 < wrong[each].share < 0.7 for each in left_out.SHAPES[1:])
 
 
-def few_steps(steps):
+def few_steps(steps, count):
     return {name: Cost.of([float(len([step() for _ in range(2)]))], 2) for name, step in steps.items()}
