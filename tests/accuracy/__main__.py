@@ -1,4 +1,4 @@
-"""Write docs/accuracy.json, docs/accuracy.md and its fifteen plots from the results of a report.
+"""Write docs/accuracy.json, docs/accuracy.md and its sixteen plots from the results of a report.
 
     python -m tests.accuracy DIR          all charts, from the full report in DIR
     python -m tests.accuracy DIR CHART    one chart, from a report of this chart alone (--only CHART)

@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
+from game.report.charts import CHARTS
 from game.report.claim import FAILS, HOLDS, TIE
 from tests.accuracy.__main__ import replaced
 from tests.accuracy.page import DOCS, PAGE, PLOTS, STORY, charts, dots, read, text, total_seconds
@@ -38,9 +39,16 @@ def test_a_chart_that_is_measured_apart_names_its_machine(kept):
     assert total_seconds(one) == total_seconds(kept) + 7
 
 
-def test_there_are_fifteen_and_each_claims_something(kept):
-    assert len(STORY) == 15 == len(charts())
-    assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 15
+@pytest.mark.parametrize("chart", CHARTS, ids=lambda chart: chart.key)
+def test_every_chart_of_the_report_is_on_the_page(chart):
+    """No chart is left out without a word."""
+    page = PAGE.read_text(encoding="utf-8")
+    assert f"## {chart.number}. {chart.title}" in page and f"(accuracy/{chart.key}.svg)" in page
+
+
+def test_there_are_sixteen_and_each_claims_something(kept):
+    assert len(STORY) == 16 == len(charts()) == len(CHARTS)
+    assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 16
     verdicts = {claim.verdict for chart in charts() for claim in chart.claims(kept["rows"][chart.of or chart.key])}
     assert verdicts >= {HOLDS, FAILS, TIE}, "what does not hold is told too"
 
