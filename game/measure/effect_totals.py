@@ -17,7 +17,7 @@ from game.drawing.colors import GOLD, GREEN, RED
 from game.measure.effect_costs import Side, can_be, world_under
 from game.measure.ledger import EFFECTS, NEUTRAL
 from game.measure.moment import STEPS, Moment
-from game.measure.timing import RUNS, Cost, seconds_a_step
+from game.measure.timing import RUNS, UNSURE, UNSURE_CELL, Cost, seconds_a_step
 from physics import Effects, World
 from physics.jit.workers import end_all, start_module
 
@@ -164,7 +164,7 @@ def _slots(kind):
 def bars_of(totals: Mapping[str, EffectTotal]) -> list[BarRow]:
     """Return the rows of a table of bars. There is a row for each choice of effects, and a column for each of FIELDS.
 
-    The text of a time is "same" if its difference from the time of the declared choice is less than the noise of both.
+    The text of a time is UNSURE_CELL if its difference from that of the declared choice is less than the noise of both.
     The text of a missing value is "...".
     """
     declared = totals.get(DECLARED, EffectTotal(0))
@@ -183,7 +183,7 @@ def _text(total, declared, field):
     if field == "time" and total is not declared and other is not None:
         noise = sum(each.median - each.least for each in (time, other))
         if abs(time.least - other.least) <= noise:
-            return "same"
+            return UNSURE_CELL
     return f"{SCALES[field] * value:,.0f}"
 
 
@@ -191,12 +191,14 @@ def sentence_of(totals: Mapping[str, EffectTotal]) -> str:
     """Return a sentence on the time of declaring all effects; "" if the times are not measured yet.
 
     All effects are compared with the declared ones, or with the fewest possible if the scene declares all. The sentence
-    gives the ratio of the least times. A difference within the noise is reported as "no more time than".
+    gives the ratio of the least times. Of a difference within the noise it says that it cannot be told apart.
     """
     declared, every, none = (totals.get(name, EffectTotal(0)) for name in NAMES)
     other = declared if declared.effects < every.effects else none
     times = other.value("time"), every.value("time")
     if times[0] is None or times[1] is None:
         return ""
-    much = "no more time than" if _text(every, other, "time") == "same" else f"{times[1] / times[0]:.1f} x the time of"
-    return f"Declaring all {every.effects} effects takes {much} {'none' if not other.effects else other.effects}."
+    less = other.effects or "none"
+    if _text(every, other, "time") == UNSURE_CELL:
+        return f"Declaring all {every.effects} effects: the time {UNSURE} from that of {less}."
+    return f"Declaring all {every.effects} effects takes {times[1] / times[0]:.1f} x the time of {less}."

@@ -49,6 +49,8 @@ class Entry(NamedTuple):
     worked: int  # bodies moved, pairs tested and rows solved in the run with it …
     worked_without: int  # … and without it
     cost: float  # [s] median over the steps of the extra time with it; negative if it saves time
+    worst: float = 0.0  # [px] greatest of the distances whose root mean square is `apart`
+    p99: float = 0.0  # [px] 99th percentile of them, over the bodies
 
     @property
     def matters(self) -> bool:
@@ -116,9 +118,10 @@ def _compared(one, other_class, found, frames, after):
             known = min(known, frame)
         if frame >= known + after:
             break
-    apart = root_mean_square(one.scene, other.scene)
+    apart, p99, worst = distances(one.scene, other.scene)
     cost = median((a + b) / 2 for a, b in pairwise(costs)) if len(costs) > 1 else 0.0
-    return found._replace(**firsts, apart=apart, worked=one.worked, worked_without=other.worked, cost=cost)
+    ran = {"worked": one.worked, "worked_without": other.worked, "cost": cost}
+    return found._replace(**firsts, **ran, apart=apart, worst=worst, p99=p99)
 
 
 class Side:
@@ -169,19 +172,21 @@ class Side:
         return [*(world.digest() for world in self.scene.worlds), self.scene.state(), self.scene.random.getstate()]
 
 
-def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] between the same bodies in two copies of a scene.
+def distances(one: Scene, other: Scene) -> tuple[float, float, float]:
+    """Return the distances [px] between the same bodies in two copies of a scene: (root mean square, p99, greatest).
 
-    Only bodies that exist in both copies (same world and id) are compared. The result is 0 if there are none.
+    Only bodies that exist in both copies (same world and id) are compared. The results are 0 if there are none. p99 is
+    the 99th percentile over the bodies.
     """
-    squares = []
+    gaps = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies
         _, rows_a, rows_b = np.intersect1d(a["id"], b["id"], return_indices=True)
-        dx, dy = (a[name][rows_a] - b[name][rows_b] for name in ("center_x", "center_y"))
-        squares.append(dx * dx + dy * dy)
-    together = np.concatenate(squares) if squares else np.zeros(0)
-    return sqrt(float(together.mean())) if len(together) else 0.0
+        gaps.append(np.hypot(*(a[name][rows_a] - b[name][rows_b] for name in ("center_x", "center_y"))))
+    together = np.concatenate(gaps) if gaps else np.zeros(0)
+    if not len(together):
+        return 0.0, 0.0, 0.0
+    return sqrt(float((together**2).mean())), float(np.percentile(together, 99)), float(together.max())
 
 
 def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:

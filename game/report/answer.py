@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from game.measure.rates import Rate
+from game.measure.timing import UNSURE
 from game.report.charts.tiers import AROUND
-from game.report.claim import UNSURE, ratio_of
+from game.report.claim import ratio_of
 from game.report.job import Row
 from game.report.pygame_sprites import BOXES, STEP
 

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from game.measure.pareto_front import cheaper
+from game.measure.timing import UNSURE
 
 HOLDS, FAILS, TIE, PART = "holds", "does not hold", "a tie", "holds in part"
-UNSURE = "cannot be told apart"  # the one spelling of a difference inside the noise, in the report and in the labs
 
 
 class Claim(NamedTuple):

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from game.measure.timing import UNSURE_CELL
+
 UNKNOWN = "-"  # never a zero for an unknown cost
 
 
@@ -21,8 +23,8 @@ class Difference(NamedTuple):
         return self.seconds - self.noise > other.seconds + other.noise
 
     def text(self):
-        """Return the difference as text in microseconds with its sign; "0" if it is within the noise."""
-        return f"{1e6 * self.seconds:+,.0f}" if self.counts else "0"
+        """Return the difference as text in microseconds with its sign; UNSURE_CELL if it is within the noise."""
+        return f"{1e6 * self.seconds:+,.0f}" if self.counts else UNSURE_CELL
 
 
 def difference_of(scene, name, other):

@@ -23,6 +23,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, 
 from game.drawing.headline import Headline
 from game.input.drag import Drag
 from game.input.inputs import InputFrame
+from game.measure.timing import UNSURE
 from game.measurement_requests import MeasuredRun, Recipe, RunRequest
 from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects, World
@@ -287,7 +288,9 @@ class Joints(Scene):
             time = "" if cost is None else f" ({cost_text(self, self._run_name(tier))} a step)"
             words.append(f"{tier} {gap_text(machine.worst)} px{time}")
         more = difference_of(self, self._run_name(self.tiers_shown[1]), self._run_name("iterative"))
-        costs = "" if more is None else f"; exactness costs {more.text()} us"
+        costs = ""
+        if more is not None:
+            costs = f"; exactness costs {more.text()} us" if more.counts else f"; the cost of exactness {UNSURE}"
         return f"{self.machine.name}: widest gap of a joint, {', '.join(words)}{costs}"
 
     def check(self):

@@ -6,15 +6,16 @@ add a reason for it.
 
 import math
 import re
+from types import SimpleNamespace
 
 import pytest
 
 import physics
 from game.input.inputs import InputFrame
-from game.measure.ledger import EFFECTS, NEUTRAL, NEVER_NEUTRAL, entry, variant
+from game.measure.ledger import EFFECTS, NEUTRAL, NEVER_NEUTRAL, distances, entry, variant
 from game.registry import Registry
 from game.scene import Goal, Scene
-from physics import Circle, Effects, Material, Polygon
+from physics import Circle, Effects, Material, Polygon, World
 from scenes import SCENES
 from scenes.lab.gallery.scene import PAGES
 
@@ -193,3 +194,17 @@ def test_what_it_needs_comes_in_both():
 
     found = entry(Bare, "friction", 60)
     assert found.parted is None and found.changed == ("friction",)
+
+
+@pytest.mark.parametrize(
+    "moved, middle, p99, worst", [((0.0,) * 4, 0.0, 0.0, 0.0), ((0.0, 0.0, 3.0, 4.0), 2.5, 3.97, 4.0)]
+)
+def test_distances_are_given_by_the_mean_and_by_the_worst_body(moved, middle, p99, worst):
+    """The root mean square hides a single body that is far astray; the 99th percentile and the worst body show it."""
+    scenes = []
+    for gaps in ((0.0,) * 4, moved):
+        world = World(Effects(response=True))
+        for number, gap in enumerate(gaps):
+            world.add_body(Circle(1.0), position=(10.0 * number, gap))
+        scenes.append(SimpleNamespace(worlds=[world]))
+    assert distances(*scenes) == pytest.approx((middle, p99, worst))

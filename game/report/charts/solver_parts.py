@@ -17,9 +17,9 @@ from game.measure.moment import failures_of
 from game.measure.pareto_front import TIE as SHARE
 from game.measure.pareto_front import pareto_front
 from game.measure.staged import advance, stages_of
-from game.measure.timing import timed_steps
+from game.measure.timing import UNSURE, timed_steps
 from game.report.chart import Axis, Panel, time, value
-from game.report.claim import FAILS, HOLDS, TIE, UNSURE, Claim
+from game.report.claim import FAILS, HOLDS, TIE, Claim
 from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import PILES, world_of
 from game.report.standing import FALLEN, VISIBLE, Watch

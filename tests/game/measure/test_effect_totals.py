@@ -102,8 +102,8 @@ def test_the_start_is_that_of_a_new_process(tmp_path):
 def test_a_difference_inside_the_noise_is_none():
     totals = totals_with(declared=(1.0, 1.1), everything=(1.15, 1.2), nothing=(0.5, 0.51))
     declared, every, none = (dict(zip(FIELDS, bar.cells, strict=True)) for bar in bars_of(totals))
-    assert declared["time"][1] == "1,000" and every["time"][1] == "same" and none["time"][1] == "500"
-    assert sentence_of(totals) == "Declaring all 4 effects takes no more time than 3."
+    assert declared["time"][1] == "1,000" and every["time"][1] == "not apart" and none["time"][1] == "500"
+    assert sentence_of(totals) == "Declaring all 4 effects: the time cannot be told apart from that of 3."
     totals = totals_with(declared=(1.0, 1.01), everything=(2.5, 2.51), nothing=(0.5, 0.51))
     assert sentence_of(totals) == "Declaring all 4 effects takes 2.5 x the time of 3."
 
