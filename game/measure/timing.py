@@ -15,8 +15,8 @@ from typing import NamedTuple, TypeVar
 
 RUNS = 5
 LEAST_PAIRS = 1000  # least number of pairs that a cost per pair is measured on
-# The one spelling of a difference inside the noise, in sentences and in cells of tables, which are narrow.
-UNSURE, UNSURE_CELL = "cannot be told apart", "not apart"
+# The one spelling of a difference inside the noise, in sentences, and in cells and verdicts, which are narrow.
+UNSURE, UNSURE_CELL = "cannot be told apart", "a tie"
 Name = TypeVar("Name")
 FINE = 1e-6  # [s] a coarser clock is too coarse for a step
 

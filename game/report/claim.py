@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from game.measure.pareto_front import cheaper
-from game.measure.timing import UNSURE
+from game.measure.timing import UNSURE, UNSURE_CELL
 
-HOLDS, FAILS, TIE, PART = "holds", "does not hold", "a tie", "holds in part"
+HOLDS, FAILS, TIE, PART = "holds", "does not hold", UNSURE_CELL, "holds in part"
 
 
 class Claim(NamedTuple):

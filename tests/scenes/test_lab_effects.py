@@ -196,4 +196,4 @@ def test_a_figure_within_the_noise_is_written_as_the_report_does(lab, spread):
     price_all(lab, prices, spread)
     for name, price in prices.items():
         within = abs(price) <= 2.0 * spread + 1e-6
-        assert lab.price(name).text() == ("not apart" if within else f"{price:+,.0f}")
+        assert lab.price(name).text() == ("a tie" if within else f"{price:+,.0f}")

@@ -29,7 +29,7 @@ from game.measure.effect_totals import (
 from game.measure.ledger import EFFECTS
 from game.measure.moment import Moment
 from game.measure.surveyor import Surveyor
-from game.measure.timing import RUNS, Cost
+from game.measure.timing import RUNS, UNSURE_CELL, Cost
 from game.run.picture import Picture
 from game.screens.parts.effect_rows import effect_rows
 from game.screens.play import Play
@@ -102,7 +102,7 @@ def test_the_start_is_that_of_a_new_process(tmp_path):
 def test_a_difference_inside_the_noise_is_none():
     totals = totals_with(declared=(1.0, 1.1), everything=(1.15, 1.2), nothing=(0.5, 0.51))
     declared, every, none = (dict(zip(FIELDS, bar.cells, strict=True)) for bar in bars_of(totals))
-    assert declared["time"][1] == "1,000" and every["time"][1] == "not apart" and none["time"][1] == "500"
+    assert declared["time"][1] == "1,000" and every["time"][1] == "a tie" and none["time"][1] == "500"
     assert sentence_of(totals) == "Declaring all 4 effects: the time cannot be told apart from that of 3."
     totals = totals_with(declared=(1.0, 1.01), everything=(2.5, 2.51), nothing=(0.5, 0.51))
     assert sentence_of(totals) == "Declaring all 4 effects takes 2.5 x the time of 3."
@@ -120,6 +120,12 @@ def test_results_arrive_one_by_one():
     for values in ({"bytes": 5, "effects": 2}, {"time": [1.0, 2.0, 3.0, 5, 60]}, {"start": 0.25}):
         surveyor._take(json.loads(json.dumps({"moment": "effects", "total": DECLARED, "values": values})))
     assert surveyor.totals[DECLARED] == EffectTotal(2, Cost(1.0, 2.0, 3.0, 5, 60), None, 0.25, 5)
+
+
+@pytest.mark.parametrize("widest", ["1,000", "9,999"])
+def test_a_tie_is_no_wider_than_a_time(widest):
+    """The text of a cell is not cut by the bar of the next column, see bars_of."""
+    assert len(UNSURE_CELL) <= len(widest), "the letters of the font are as wide as its digits"
 
 
 def test_bars_fit_their_table_and_the_longest_is_the_greatest():
