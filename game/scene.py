@@ -267,6 +267,11 @@ class Scene:
         """The first world."""
         return self.worlds[0]
 
+    @property
+    def weighed_world(self) -> WatchedWorld:
+        """The world whose choice of effects is measured, if `weighs_effects`: that of the first view."""
+        return self.views()[0][0]
+
     def step(self, inputs: InputState) -> None:
         """Run one fixed step: first the changes from the panel, then the mouse drag, then the scene's own update()."""
         self.cues.clear()

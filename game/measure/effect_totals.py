@@ -187,14 +187,21 @@ def _text(total, declared, field):
     return f"{SCALES[field] * value:,.0f}"
 
 
+def _ratio(seconds, others):
+    """Return others / seconds, of the numbers that the table of bars shows: whole microseconds, if these are not 0."""
+    shown = [round(SCALES["time"] * each) for each in (seconds, others)]
+    return shown[1] / shown[0] if shown[0] else others / seconds
+
+
 def sentence_of(totals: Mapping[str, EffectTotal]) -> str:
     """Return a sentence on the time of declaring all effects; "" if the times are not measured yet.
 
-    All effects are compared with the declared ones, or with the fewest possible if the scene declares all. The sentence
-    gives the ratio of the least times. Of a difference within the noise it says that it cannot be told apart.
+    All effects are compared with the declared ones. If the scene declares all, these are compared with the fewest
+    possible. The sentence gives the ratio of the least times, as the table of bars shows them. Of a difference within
+    the noise it says that it cannot be told apart.
     """
     declared, every, none = (totals.get(name, EffectTotal(0)) for name in NAMES)
-    other = declared if declared.effects < every.effects else none
+    every, other = (every, declared) if declared.effects < every.effects else (declared, none)
     times = other.value("time"), every.value("time")
     if times[0] is None or times[1] is None:
         return ""

@@ -32,7 +32,7 @@ def measure_requests(scene: Scene) -> None:
 
         measure_runs(measured_runs, take, lambda: True)
     if scene.weighs_effects and not scene.totals:
-        world = scene.views()[0][0]
+        world = scene.weighed_world
 
         def take_total(name, values):
             scene.totals[name] = scene.totals.get(name, EffectTotal(0))._replace(**values)

@@ -1,6 +1,7 @@
 """Seventeen effects in one busy yard, switched off one at a time: what changes, and what does each effect cost?
 
-In short: gold is with the chosen effect, blue without it. The table shows what differs after two seconds, and the cost.
+In short: gold is with the chosen effect, blue without it. An effect costs its stages, microseconds and bytes; without
+it they are gone.
 
 What to see: choose an effect. From then on the yard runs twice, with the effect (gold) and without it (blue); a body
 whose position differs is outlined in both colours. Switch it off: the picture now shows the blue yard, and stages that
@@ -20,21 +21,23 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
-from game.drawing.bar_table import bar_table_height, draw_bar_table
+from game.drawing.bar_table import BarRow, bar_table_height, draw_bar_table
 from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, SLATE
 from game.drawing.headline import Headline
-from game.drawing.number_text import plain_name
+from game.drawing.number_text import count_text, plain_name
+from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
-from game.measure.effect_totals import FIELDS, bars_of, sentence_of
+from game.measure.effect_totals import FIELDS, SCALES, bars_of, bytes_of, sentence_of
 from game.measure.errors import VISIBLE
+from game.measure.moment import Moment
 from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import COSTS, Goal, Scene, Slider
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
 from scenes.lab.costs import UNKNOWN, difference_of
-from scenes.lab.piles import with_effects
+from scenes.lab.piles import step_seconds, with_effects
 from scenes.lab.yard import HEAD, plate
 
 NAMES = tuple(field.name for field in fields(Effects))
@@ -42,6 +45,8 @@ ALL = Effects.named(NAMES)
 SIDE = 190  # [px] width of the list and the time graph under it
 TOP, ROW = 29, 10  # [px] of the first line of the list; of a line
 WINDOW = 120  # steps after which both yards are compared
+SHOW = ("gravity", "friction", "joints", "response", "conveyor")  # effects that go dark before the player acts
+TURN, DARK = 160, 25  # steps per effect of SHOW, and until it goes dark
 AGAIN = 180  # steps after which both start again, while the effect is on
 BOT_OFF, BOT_NEXT = 124, 150  # steps of its turn at which the bot switches an effect off, and continues
 BOX = (4, 6)  # [px] left side and size of a box to tick
@@ -103,8 +108,29 @@ class EffectsLab(Scene):
         self.clock = 0  # steps
         self.found = {}  # name: last Outcome
         self.below = HEAD  # [px] lower side of the plate with the words, as drawn last
+        self.guided = True  # until the player acts: effects go dark one after the other
+        self.times = Typical()  # [us] of a step of the visible yard
+        self.sizes = {}  # effect that is off -> bytes of the yard's arrays
         self.looked = []  # effects whose ghost was started, and whose costs are measured
         self._part()
+
+    @property
+    def weighed_world(self):
+        """The world whose choice of effects is measured: the yard with all effects, also while the other is visible."""
+        return self.real.world
+
+    def observe(self):
+        """Record the time of the visible yard's last step."""
+        self.times.note(1e6 * step_seconds(self.worlds[0]))
+
+    def _guide(self):
+        """Select the effects of SHOW in turn, and switch each one off after a moment."""
+        turn, step = divmod(self.frame, TURN)
+        if step == 0:
+            self.change_slider("effect", NAMES.index(SHOW[turn % len(SHOW)]))
+        elif step == DARK:
+            self.change_slider("it is", 0)
+            self._show()
 
     def _new_world(self):
         return self.add_world(drag=DRAG, wind=WIND)
@@ -141,6 +167,7 @@ class EffectsLab(Scene):
 
     def change(self, name, value):
         """Apply a change from the panel to the worlds of both yards, as Scene.change does for the scene's worlds."""
+        self.guided = False
         self.worlds = [self.real.world, self.other.world]
         try:
             super().change(name, value)
@@ -158,6 +185,10 @@ class EffectsLab(Scene):
 
     def update(self, inputs):
         """Process keys and the pointer, and step both yards. Compare the yards two seconds after the copy was made."""
+        if inputs.now.actions or inputs.pointer_pressed or inputs.wheel:
+            self.guided = False
+        if self.guided:
+            self._guide()
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -293,7 +324,12 @@ class EffectsLab(Scene):
         else:
             words = f"{plain_name(self.marked)} has no stage of its own: it is a part of others' passes"
         rect = pygame.Rect(SIDE + 5, HEAD + 4, 480 - SIDE - 10, 0)
-        lines = [(line, GOLD if self.is_on else SKY) for line in wrap(words, rect.width - 8, SMALL)]
+        world = self.worlds[0]
+        live = f"{self.times.value:,.0f} us a step, {len(world.profile.stages)} stages"
+        live += f", {count_text(len(world.bodies), 'body').replace('bodys', 'bodies')}"
+        live += f", {count_text(len(world.joints), 'joint')}"
+        lines = [(f"{'with' if self.is_on else 'without'} {plain_name(self.marked)}: {live}", PAPER)]
+        lines += [(line, GOLD if self.is_on else SKY) for line in wrap(words, rect.width - 8, SMALL)]
         lines += [(line, FOG) for line in wrap(self.finding(), rect.width - 8, SMALL)]
         rect.height = 7 * len(lines) + 5
         plate(canvas, rect)
@@ -301,12 +337,29 @@ class EffectsLab(Scene):
         for number, (line, color) in enumerate(lines):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
 
+    def _bars(self):
+        """Return the rows of the table of bars. While an effect is off, the first row is the yard without it."""
+        bars = bars_of(self.totals)
+        if self.is_on:
+            return bars
+        if self.marked not in self.sizes:
+            moment = Moment(self.other.world.snapshot(), self.broadphase)
+            self.sizes = {self.marked: bytes_of(moment.world(moment.here))}  # new arrays, as in the rows below
+        figures = self.figures.get(self._run_name(self.marked, False))
+        time = figures.cost.least if figures is not None and figures.sure else None
+        size = self.sizes[self.marked]
+        values: dict[str, float | None] = {**dict.fromkeys(FIELDS), "time": time, "bytes": size}
+        cells = [
+            (value, UNKNOWN if value is None else f"{SCALES[field] * value:,.0f}") for field, value in values.items()
+        ]
+        return [BarRow("shown", SKY, cells), *bars[1:]]
+
     def _draw_totals(self, canvas):
         """Draw bars under the list that compare the yard's effects, all effects and none.
 
         The bars show the time of a step, the kernels, the time to start and the bytes.
         """
-        bars = bars_of(self.totals)
+        bars = self._bars()
         table = pygame.Rect(4, 268 - bar_table_height(len(bars)), SIDE - 8, bar_table_height(len(bars)))
         draw_bar_table(canvas, table, list(FIELDS.values()), bars)
         canvas.fix(table)

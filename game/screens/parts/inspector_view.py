@@ -183,7 +183,7 @@ class InspectorView:
                 lines = self._lines((wide - 2 * EDGE) * scale, scale)
                 size = wide * scale, (sum(height for *_, height in lines) + 2 * EDGE) * scale
                 if size[0] <= room.width and size[1] <= room.height:
-                    found.append((lines, scale, least_covering(frame, room, size, marked)))
+                    found.append((lines, scale, least_covering([box for box, _ in frame.boxes], room, size, marked)))
             if found:
                 break
         return min(found or [(lines, 1, pygame.Rect(area.topleft, size))], key=lambda each: covered(each[2], marked))

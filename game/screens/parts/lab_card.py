@@ -15,6 +15,7 @@ from game.drawing.presenter import Frame
 from game.files.settings import Settings
 from game.scene import Goal, Scene
 from game.screens.parts.first_hint import HintCard
+from physics.debug import bounds
 
 SECTIONS = ("In short", "What to see", "Why it matters", "To try", "Source")  # of the docstring at the head of a lab
 INKS: dict[str, Color] = {"In short": PAPER, "What to see": PAPER, "Why it matters": FOG, "To try": SKY, "Source": FOG}
@@ -23,9 +24,11 @@ FEET = ("F1 or ?: more about it   Enter or a click: close", "F1, ?, Enter or a c
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
 BUTTONS = ("a", "b", "start")
 WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
+LARGE = 0.25  # of a view: larger shapes are ground, walls, a table
 GRID = 4  # a card is tried at GRID + 1 places in each direction
 FOLLOWS = INK  # mark of a wrapped line: the space of a square, without the square
 GOALS = 84  # [text px] greatest height of the list of goals
+WORDS = 60  # on the first page at most: a longer finding is on the second page only
 EVERY = 30  # pictures between two checks of the goals
 
 
@@ -83,7 +86,8 @@ class LabCard:
         lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)
         size = (width, (height_of(lines) + 2 * EDGE) * scale)
         if self.area != area:  # it stays in place as long as the picture has the same size
-            self.area, self.place = area, least_covering(frame, area, size).topleft
+            subjects = [*(box for box, _ in frame.boxes), *frame.fixed, *bodies_of(self.scene, frame)]
+            self.area, self.place = area, least_covering(subjects, area, size).topleft
         self.rect = pygame.Rect(self.place, size).clamp(area)
         frame.boxes[:] = [each for each in frame.boxes if not self.rect.colliderect(each[0])]  # now hidden
         frame.surface.fill(INK, self.rect)
@@ -110,7 +114,9 @@ class LabCard:
         for section in PAGES[self.page]:
             words = sections[section] if INKS[section] == PAPER else f"{section}: {sections[section]}"
             lines += paragraph(words, width, scale, INKS[section])
-        end = paragraph(f"Found: {self.finding}", width, scale, GOLD) if self.finding else []
+        words = " ".join((self.text.question, *(sections[section] for section in PAGES[0]), "Found:", self.finding))
+        fits = self.page == 1 or len(words.split()) <= WORDS
+        end = paragraph(f"Found: {self.finding}", width, scale, GOLD) if self.finding and fits else []
         end.append(Line(FEET[self.page], FOG, gap=4))
         if self.goals and self.page == 1:
             lines.append(Line("what it must show, and what it has measured", SKY, gap=4))
@@ -182,11 +188,11 @@ def height_of(lines: Iterable[Line]) -> int:
 
 
 def least_covering(
-    frame: Frame, area: pygame.Rect, size: tuple[int, int], clear: Sequence[pygame.Rect] = ()
+    boxes: Sequence[pygame.Rect], area: pygame.Rect, size: tuple[int, int], clear: Sequence[pygame.Rect] = ()
 ) -> pygame.Rect:
-    """Return the rectangle of a given size in `area` that covers the least text. A grid of positions is tried.
+    """Return the rectangle of a given size in `area` that covers the least of `boxes`. A grid of positions is tried.
 
-    clear: rectangles that the result covers as little as possible, which counts before the text.
+    clear: rectangles that the result covers as little as possible, which counts before `boxes`.
     """
     spare = area.width - size[0], area.height - size[1]
     places = [
@@ -194,13 +200,26 @@ def least_covering(
         for column in range(GRID + 1)
         for row in range(GRID + 1)
     ]
-    words = [box for box, _ in frame.boxes]
-    return min(places, key=lambda place: (covered(place, clear), covered(place, words)))
+    return min(places, key=lambda place: (covered(place, clear), covered(place, boxes)))
 
 
 def covered(place: pygame.Rect, boxes: Iterable[pygame.Rect]) -> int:
     """Return the total area [px] of rectangles that `place` covers."""
     return sum(both.width * both.height for both in map(place.clip, boxes))
+
+
+def bodies_of(scene: Scene, frame: Frame) -> list[pygame.Rect]:
+    """Return the bounding boxes [frame px] of the scene's visible shapes, except those larger than LARGE of a view."""
+    found = []
+    for world, camera in scene.views():
+        lens = frame.lens(camera)
+        clip = lens.clip.clip(frame.rect)
+        low, high = (lens.points(*bounds(world)[:, side : side + 2].T) for side in (0, 2))
+        for left, top, right, bottom in zip(*(each.tolist() for each in (*low, *high)), strict=True):
+            rect = pygame.Rect(round(left), round(top), round(right - left) + 1, round(bottom - top) + 1).clip(clip)
+            if 0 < rect.width * rect.height < LARGE * clip.width * clip.height:
+                found.append(rect)
+    return found
 
 
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":

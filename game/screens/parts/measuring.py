@@ -95,7 +95,8 @@ class Measuring:
             self.ledger.measure_effects(*self._weighed(), each=False)
 
     def _weighed(self):
-        return self.world.snapshot(), self.world.broadphase.name, pieces_of(type(self.scene))
+        world = self.scene.weighed_world
+        return world.snapshot(), world.broadphase.name, pieces_of(type(self.scene))
 
     def take_weights(self) -> None:
         """Store the results about effects that have arrived. Call this once per picture, also during an inspection."""

@@ -257,7 +257,7 @@ class StepInspectorView:
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
-            best = least_covering(frame, narrow, (size[0], narrow.height))
+            best = least_covering([box for box, _ in frame.boxes], narrow, (size[0], narrow.height))
             self.corner = int(best.centerx > area.centerx)
         return pygame.Rect(corners[self.corner], area.top, *size)
 

@@ -169,3 +169,11 @@ def test_a_scene_is_weighed_once(monkeypatch):
         play.toggle_step_inspector()
     assert asked == [False]
     play.close()
+
+
+def test_the_ratio_is_that_of_the_numbers_beside_it():
+    totals = totals_with(declared=(0.3334, 0.334), everything=(0.358, 0.4), nothing=(0.0486, 0.049))
+    totals[DECLARED] = totals[DECLARED]._replace(effects=totals[EVERYTHING].effects)
+    declared, _, nothing = (row.cells[0][1] for row in bars_of(totals))
+    assert (declared, nothing) == ("333", "49")
+    assert f"{333 / 49:.1f} x" in sentence_of(totals)
