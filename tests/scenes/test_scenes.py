@@ -39,6 +39,19 @@ needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here d
 SAME_WITHOUT_NARROW_PHASE = {"lab/sensors", "lab/ladder"}
 # What these change is no matter of a world: the rules, the picture, which other world goes on beside it.
 BESIDE_THE_WORLDS = {
+    *(
+        (f"lab/{lab}", name)
+        for lab, name in (
+            ("sensors", "events"),
+            ("stacks", "column"),
+            ("tunnelling", "lane"),
+            ("mask_sweep", "side"),
+            ("gallery", "side"),
+            ("mask_stack", "shape"),
+            ("ladder", "shape"),
+            ("carving", "loose parts"),
+        )
+    ),  # the title line alone is about another one; nothing is loose yet
     ("shooter", "hurts"),
     ("lab/effects", "effect"),
     ("lab/shapes", "step"),
