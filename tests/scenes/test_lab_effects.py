@@ -201,6 +201,7 @@ def test_a_figure_within_the_noise_is_written_as_the_report_does(lab, spread):
         assert lab.price(name).text() == ("a tie" if within else f"{price:+,.0f}")
 
 
+@needs_speed
 def test_effects_go_dark_one_after_the_other_until_the_player_acts(lab):
     seen = []
     for _ in range(len(SHOW) * TURN):

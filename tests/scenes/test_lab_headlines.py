@@ -106,6 +106,7 @@ def test_a_goal_that_needs_the_player_waits_for_the_player(name, words, tap):
         assert next(each for each in scene.check() if words in each.name).met
 
 
+@needs_speed
 def test_brute_force_visits_each_shape_once_for_each_part_of_the_query():
     scene = run(Queries(3), 20)
     headline = scene.headline()
@@ -116,6 +117,7 @@ def test_brute_force_visits_each_shape_once_for_each_part_of_the_query():
     assert figures(scene.headline().number)[0] < whole / 2
 
 
+@needs_speed
 @pytest.mark.parametrize("seed", range(6))
 def test_no_shape_drifts_over_the_start_of_the_rays(seed):
     scene = Queries(seed)
