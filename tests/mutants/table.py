@@ -1,4 +1,4 @@
-"""Thirty-six single-operator errors in the kernels, and the tests that detect each.
+"""Fifty-four single-operator errors in the kernels, and the tests that detect each.
 
 The seed of a mutant is 1. If the change that seed 1 picks is equivalent to the original (EQUIVALENT), the mutant has
 another seed.
@@ -69,6 +69,26 @@ MUTANTS = (
         seed=9,
     ),
     Mutant("bounce_once", "side", ("test_bounces_rise_by_the_square_of_restitution",)),
+    # joints
+    Mutant("report_joints", "turn", ("test_a_joint_breaks_at_its_force_and_is_told_once",), seed=19),
+    Mutant("report_joints", "turn", ("test_a_torque_breaks_a_weld",), seed=20),
+    Mutant("joint_rows.push", "minus", ("test_welded_bodies_move_as_one",)),
+    Mutant("place_joint", "sign", ("test_welded_bodies_move_as_one",), seed=2),
+    Mutant("warm_joints", "sign", ("test_the_reported_force_holds_the_weight_in_every_direction",)),
+    Mutant("point_inverse_mass", "sign", ("test_the_reported_force_holds_the_weight_in_every_direction",), seed=5),
+    Mutant("limit_change", "sign", ("test_a_slider_is_free_up_to_its_limit",), seed=2),
+    Mutant("limit_change", "minus", ("test_a_slider_is_free_up_to_its_limit",)),
+    Mutant("impulse_of", "sign", ("test_an_angle_stays_within_its_limits",)),
+    Mutant("solve_motor", "sign", ("test_the_motor_of_a_wheel_turns_both_bodies",), seed=2),
+    # joints solved directly
+    Mutant("take_joints", "turn", ("test_joints_that_close_a_loop_are_not_taken",)),
+    Mutant("order_bodies", "turn", ("test_random_forests_are_solved_as_by_numpy",), seed=5),
+    Mutant("independent", "sign", ("test_random_forests_are_solved_as_by_numpy",), seed=2),
+    Mutant("apply_row", "sign", ("test_random_forests_are_solved_as_by_numpy",)),
+    Mutant("gather_violations", "sign", ("test_random_forests_are_solved_as_by_numpy",), seed=2),
+    Mutant("spread_impulses", "sign", ("test_random_forests_are_solved_as_by_numpy",)),
+    Mutant("write_line", "sign", ("test_welded_bodies_move_as_one",)),
+    Mutant("next_state", "turn", ("test_a_chain_with_limits_stops_at_them",)),
     # what is told, characters
     Mutant("compare_pairs", "turn", ("test_every_begin_has_exactly_one_end",)),
     Mutant("in_tiles", "edge", ("test_one_way_opens_from_below_and_drops_on_demand",)),

@@ -313,3 +313,50 @@ def test_an_angle_stays_within_its_limits(limits, kind, setting):
         world.step()
         assert limits[0] - 0.01 < joint.angle < limits[1] + 0.01
     assert joint.angle == pytest.approx(min(max(math.pi / 2, limits[0]), limits[1]), abs=0.01)
+
+
+# --- both tiers -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("tier", ["iterative", "direct"])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_slider_is_free_up_to_its_limit(side, tier, setting):
+    world = world_of(setting, FLOATING)
+    world.joint_solver = tier
+    box = world.add_body(Polygon.box(10, 10), velocity=(60.0 * side, 0.0))
+    slider = world.add_joint(Prismatic(None, box, at=(0, 0), limits=(-50, 50)))
+    run(world, 0.5)
+    assert slider.translation == pytest.approx(30.0 * side, rel=1e-6) and slider.force < 1e-6
+    run(world, 0.5)
+    assert slider.translation == pytest.approx(50.0 * side, abs=0.05)
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("tier", ["iterative", "direct"])
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+def test_the_motor_of_a_wheel_turns_both_bodies(ratio, tier, setting):
+    """Without other torques the angular velocities differ by the motor's speed, in inverse ratio of the inertias."""
+    world = world_of(setting, FLOATING)
+    world.joint_solver = tier
+    wheel, chassis = world.add_body(Circle(10.0), mass=1.0), world.add_body(Circle(10.0), mass=ratio)
+    world.add_joint(Wheel(chassis, wheel, at=(0, 0), motor=Drive(4.0, max=1e6)))
+    run(world, 0.2)
+    assert wheel.angular_velocity == pytest.approx(4.0 * ratio / (1.0 + ratio), rel=1e-6)
+    assert chassis.angular_velocity == pytest.approx(-4.0 / (1.0 + ratio), rel=1e-6)
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("tier", ["iterative", "direct"])
+@pytest.mark.parametrize("angle", [0.0, 0.7, 2.0, 3.6, 5.0])
+def test_the_reported_force_holds_the_weight_in_every_direction(angle, tier, setting):
+    pull = (G * math.cos(angle), G * math.sin(angle))
+    world = world_of(setting, EFFECTS.with_(sleeping=False), gravity=pull)
+    world.joint_solver = tier
+    box = world.add_body(Polygon.box(10, 10))
+    world.add_joint(Weld(None, box, at=(0, 0)))
+    run(world, 0.5)
+    row = world.joints[0]
+    assert (row["force_x"], row["force_y"]) == pytest.approx(
+        (-box.mass * pull[0], -box.mass * pull[1]), rel=1e-3, abs=1
+    )
