@@ -310,15 +310,18 @@ def stretch_of(joint):
 
 
 @subkernel
-def add_inertia(rows, order, h, joints_inout, motions_inout):
+def add_inertia(rows, order, context, joints_inout, motions_inout):
     """Raise the inertia of light bodies in trees under tension, so that substeps can resolve their oscillations.
 
     A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by a torque
     F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
     h [s]. F is the greatest recent force. It fades within a quarter of a second, because a jerking chain is slack
-    between jerks. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet;
-    joints_inout: JOINT rows; motions_inout: MOTION rows. O(order).
+    between jerks. As for cached forces, a step that is shorter than the steps before counts by its share: the force of
+    an impulse would be huge in a step of a microsecond. Source: geometric stiffness, Andrews, Teichmann and Kövecses,
+    2017. rows, order: see JointSet; context: see StepContext; joints_inout: JOINT rows; motions_inout: MOTION rows.
+    O(order).
     """
+    h = context.h
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
@@ -328,7 +331,7 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
         j = joints_inout[rows[order[k]]]
         if j.direct and h > 0.0:
             impulse, lever_a, lever_b = stretch_of(j)
-            j.strain = max(impulse / h, fade * j.strain)
+            j.strain = max(context.share * impulse / h, fade * j.strain)
             motions_inout[j.motion_a].tension += h * h * j.strain * lever_a
             motions_inout[j.motion_b].tension += h * h * j.strain * lever_b
     for k in range(len(order)):
@@ -473,7 +476,7 @@ def begin_trees(context, joints_inout, motions_inout):
     s = joints_inout
     if len(s.order) == 0:
         return 0
-    add_inertia(s.rows, s.order, context.h, s.table, motions_inout)
+    add_inertia(s.rows, s.order, context, s.table, motions_inout)
     place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
     begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.forest, s.schur)
     return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
