@@ -19,6 +19,7 @@ ASKED = re.compile(r"^(?:world\.remove_joints\(\[)?(j\d+|world\.joint\(\d+\))(?:
 GAIN = 4.0  # kinetic energy over all that was there at the start or came in, at most
 HASTE = 4.0  # path of a body over that at its greatest speed before and after the step, at most
 APART = 2.0  # slops that bodies may overlap by
+FAR = 100.0  # [px] path in a step up to which the energy of a motor is bounded
 ROUNDING = 1e-9  # share of the coordinates by which a reported separation may be wrong
 
 
@@ -188,8 +189,10 @@ class JointWatch:
         if effects.conveyor and world.shapes["surface_speed"].any():
             return True
         depths = world.contacts["separation"]
-        if self.drives() and len(depths) and depths.min() < -APART * world.tolerances.slop:
-            return True  # what a spring or motor drives may come out of a deep overlap fast
+        deep = len(depths) and depths.min() < -APART * world.tolerances.slop
+        fast = before.speed.max(initial=0.0) * (world.time - self.time) > FAR
+        if self.drives() and (deep or fast):
+            return True  # the energy of bodies on springs and motors has no bound in the solver
         moves = (now.kind == KINEMATIC) & ((now.numbers[:6] != before.numbers[:6]).any(axis=0) | (now.speed > 0.0))
         moves |= (now.kind == KINEMATIC) & (now.turn != 0.0)
         pushers = now.ids[moves]
