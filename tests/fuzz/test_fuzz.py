@@ -119,12 +119,12 @@ JOINTED = [
 
 
 def test_programs_with_joints_have_all_kinds():
-    """Forty programs add joints of every kind, change settings and columns, and remove joints."""
-    texts = "\n".join(line for seed in range(40) for line in write_program(seed, 40 if JIT else 12, "joints")[0])
+    """Programs add joints of every kind, change settings and columns, and remove joints."""
+    texts = "\n".join(line for seed in range(24) for line in write_program(seed, 40, "joints")[0])
     assert all(f"({kind}(" in texts for kind in PLAIN)
     for use in ("world.add_joints(", "world.joint_solver = ", "world.joints[", ".enabled = ", "world.remove_joints("):
         assert use in texts
-    assert re.search(r"j\d+\.(limits|motor|spring|breaks) = ", texts)
+    assert re.search(r"\.(limits|motor|spring|breaks) = ", texts)
 
 
 def no_joints_dropped(self, ids):
