@@ -137,7 +137,7 @@ TABLES = {
 }
 # Absent from files of older programs: tables, and columns of tables, which are then 0.
 LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}
-LATER_COLUMNS = {"joints": {name for name, _ in (*COUPLED_STATE, *COUPLED_SCRATCH)}}
+LATER_COLUMNS = {"joints": {"is_pin", *(name for name, _ in (*COUPLED_STATE, *COUPLED_SCRATCH))}}
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:

@@ -208,4 +208,4 @@ def sentence_of(totals: Mapping[str, EffectTotal]) -> str:
     less = other.effects or "none"
     if _text(every, other, "time") == UNSURE_CELL:
         return f"Declaring all {every.effects} effects: the time {UNSURE} from that of {less}."
-    return f"Declaring all {every.effects} effects takes {times[1] / times[0]:.1f} x the time of {less}."
+    return f"Declaring all {every.effects} effects takes {_ratio(*times):.1f} x the time of {less}."

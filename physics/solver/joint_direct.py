@@ -72,6 +72,7 @@ from physics.tables.joint import ANGLE, COUPLING, ON_AXIS, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
+SHORT_SHARE = 4.0  # a step shorter than the steps before by more than this factor counts by its share alone
 MOST_PSEUDO_TURN = 0.1  # [rad] by which a pseudo-velocity rotates a body in a substep, at most
 # Rates at which bend() fades to 0: with the growth of an inertia by tension, and with the square of the rotation in a
 # substep [1/rad²]. In a closed mechanism it fades early: in a singular pose the corrections of different joints
@@ -145,7 +146,7 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Write JOINT.direct (the joint is in a tree) and is_pin of a group. Return the number of joints with a spring.
+    """Record in JOINT.direct whether each joint of a group is in a tree. Return the number of joints with a spring.
 
     O(rows). Only springs on coordinates count. The flags that joint_schur.py sets are cleared. rows: indices of JOINT
     rows; taken: for each of these rows, True if the joint is in a tree.
@@ -154,10 +155,17 @@ def mark_direct(rows, taken, joints_inout):
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         j.direct = taken[k]
-        j.is_pin = not j.direct and is_rigid_pin(j)
         j.exact_limits, j.exact_motor, j.in_open_tree = False, False, False
         springs += int(has_spring(j))
     return springs
+
+
+@kernel
+def mark_pins(rows, joints_inout):
+    """Write JOINT.is_pin of the joints of a group, after JOINT.direct. rows: indices of JOINT rows. O(rows)."""
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        j.is_pin = not j.direct and is_rigid_pin(j)
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
@@ -316,8 +324,8 @@ def add_inertia(rows, order, context, joints_inout, motions_inout):
     A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by a torque
     F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
     h [s]. F is the greatest recent force. It fades within a quarter of a second, because a jerking chain is slack
-    between jerks. As for cached forces, a step that is shorter than the steps before counts by its share: the force of
-    an impulse would be huge in a step of a microsecond. Source: geometric stiffness, Andrews, Teichmann and Kövecses,
+    between jerks. A step that is far shorter than the steps before counts by its share: the force of an impulse would
+    be huge in a step of a microsecond. Source: geometric stiffness, Andrews, Teichmann and Kövecses,
     2017. rows, order: see JointSet; context: see StepContext; joints_inout: JOINT rows; motions_inout: MOTION rows.
     O(order).
     """
@@ -331,7 +339,7 @@ def add_inertia(rows, order, context, joints_inout, motions_inout):
         j = joints_inout[rows[order[k]]]
         if j.direct and h > 0.0:
             impulse, lever_a, lever_b = stretch_of(j)
-            j.strain = max(context.share * impulse / h, fade * j.strain)
+            j.strain = max(min(SHORT_SHARE * context.share, 1.0) * impulse / h, fade * j.strain)
             motions_inout[j.motion_a].tension += h * h * j.strain * lever_a
             motions_inout[j.motion_b].tension += h * h * j.strain * lever_b
     for k in range(len(order)):
@@ -619,6 +627,8 @@ class Trees:
         springs = mark_direct(rows, taken, joints) if n else 0
         self.schur.counts[:] = 0
         schur = self._list_schur(rows, joints, motions, taken) if taken_count else self.schur
+        if n:
+            mark_pins(rows, joints)
         couplings = self.couplings[: list_couplings(rows, joints, self.couplings) if n else 0]
         return JointSet(joints, rows, springs, couplings, order, self.counts, self.rows, self.forest, schur)
 

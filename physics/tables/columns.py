@@ -242,6 +242,7 @@ JointFlags = Literal[
     "exact_limits",
     "exact_motor",
     "in_open_tree",
+    "is_pin",
 ]
 JointRows = Rows[JointFloats, JointInts, JointFlags, Never]
 BrokenFloats = Literal["force", "torque"]

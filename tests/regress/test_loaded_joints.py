@@ -123,3 +123,22 @@ def test_gears_of_plain_pins_keep_their_ratio(ratio, substeps, solver):
         world.step()
     assert abs(driven.angle) > 10.0
     assert driven.angle + ratio * follower.angle == pytest.approx(0.0, abs=1e-2) and gear.separation < 1e-2
+
+
+@pytest.mark.parametrize("tier", ["iterative", "direct", "auto"])
+@pytest.mark.parametrize("links", [1, 2, 3, 6, 12])
+def test_a_joint_is_solved_once_exactly_or_as_a_pin(links, tier):
+    """Links between two rings of bodies close loops, whose joints are exact beside the tree."""
+    world = World(EFFECTS)
+    world.joint_solver = tier
+    rows = [[world.add_body(Circle(4.0), position=(20.0 * k, 20.0 * j)) for k in range(links + 1)] for j in (0, 1)]
+    world.add_joint(Revolute(None, rows[0][0], at=(0.0, 0.0)))
+    for row in rows:
+        for a, b in zip(row, row[1:], strict=False):
+            world.add_joint(Revolute(a, b, at=a.position))
+    for a, b in zip(*rows, strict=True):
+        world.add_joint(Revolute(a, b, at=a.position))
+    for _ in range(5):
+        world.step()
+    assert (world.joints["direct"] != world.joints["is_pin"]).all()
+    assert world.joints["is_pin"].any() == (tier == "iterative")
