@@ -362,7 +362,7 @@ def explaining_missing_names(module: str, known: Collection[str]) -> Callable[[s
     """Return the `__getattr__` of a module: it raises AttributeError with a hint. known: the module's public names."""
 
     def missing(name: str) -> Never:
-        raise AttributeError(f"module {module} has no attribute {name}{in_place_of_class(name, known)}")
+        raise AttributeError(f"module {module!r} has no attribute {name!r}{in_place_of_class(name, known)}")
 
     return missing
 

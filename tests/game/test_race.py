@@ -295,7 +295,7 @@ def test_the_split_screen_is_whole_at_any_size(played, size, panel):
 @pytest.mark.parametrize("name", SCENES)
 def test_it_can_be_run_in_every_scene(played, name):
     play = played(name, BotSource())
-    if name in ("lab/pyramid", "lab/dominoes"):
+    if name in ("lab/pyramid", "lab/dominoes", "lab/tumbler", "lab/ghost_bumps"):
         steps(play, 2)  # its bot begins by choosing another solver or number of substeps, which a rival keeps
     now = play.measuring.now()
     race = race_of(play, **({"broadphase": OTHER[now.broadphase]} if play.scene.switches_broadphase else {}))

@@ -12,7 +12,7 @@ from physics import Effects, PixelMask, World
 
 @pytest.mark.parametrize("name", physics.hints.CLASSES)
 def test_a_class_of_another_engine_names_what_to_write(name):
-    with pytest.raises(AttributeError, match=re.escape(f"has no attribute {name}: write ")):
+    with pytest.raises(AttributeError, match=re.escape(f"has no attribute '{name}': write ")):
         getattr(physics, name)
     words = re.findall(r"^[A-Z]\w+", physics.hints.CLASSES[name])
     assert all(word in physics.__all__ for word in words) and name not in physics.__all__
