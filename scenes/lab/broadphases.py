@@ -3,9 +3,9 @@
 In short: all four report the same pairs. Which one is cheapest depends on the layout, the number of bodies and their
 speed.
 
-What to see: where all bodies move, the hash is the cheapest at 300 bodies, the sweep at 2,000 and more, and speed costs
-the sweep the least. Where one in twenty moves, the hash and the tree cannot be told apart up to 1,000 bodies; at 5,000
-the hash is cheaper. Brute force tests each body that has left its margin with all others.
+What to see: where all bodies move, the hash is the cheapest at 300 bodies, the hash and the sweep at 1,000 and more,
+and speed costs the sweep the least. Where one in twenty moves, the hash and the tree cannot be told apart up to 1,000
+bodies; at 5,000 the hash is cheaper. Brute force tests each body that has left its margin with all others.
 
 Why it matters: Without a broad phase, n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
