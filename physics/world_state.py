@@ -645,7 +645,7 @@ class WorldState:
             self._remove([identity])
             return
         at = sleep.disturb_one(self, identity, self._row_at(identity))
-        self.contact_lists.forget_loads(self, np.array([at]))
+        self.contact_lists.forget_loads_of(self, at)
         self._bodies.columns["inverse_mass"][at] = 0.0  # forget_below stops at this body
         self._forget_values(identity)
         self._removed[identity] = None

@@ -183,7 +183,9 @@ class CostPanel:
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
         left, width = rect.x + 5 * scale, rect.width - 10 * scale
-        y = self._draw_head(frame, left, rect.y + 4 * scale, width, scale)
+        finding = self._finding()
+        opening = self._opening(finding)
+        y = self._draw_head(frame, left, rect.y + 4 * scale, width, opening, scale)
         known = self.survey.known(self.shown_kind())
         self.places, self.rows = [], []
         if known:
@@ -191,7 +193,8 @@ class CostPanel:
             plot = pygame.Rect(left, y, width, max(LEAST * scale, high))
             self._draw_plot(frame, plot, known, now, scale)
             y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
-            y = self._draw_finding(frame, left, y, width, scale)
+            if finding not in ("", opening) and self.survey.can_judge_tiers():
+                y = self._draw_sentence(frame, left, y, width, finding, scale)
             y = self.advice.draw(frame, left, y, width, scale)
             self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - (line + 3) * scale - y), known, now, scale)
         else:
@@ -199,12 +202,12 @@ class CostPanel:
         foot = next((each for each in FEET if frame.measure(each, font, scale)[0] <= width), FEET[-1])
         frame.text(foot, left, rect.bottom - (line + 1) * scale, FOG, font, scale)
 
-    def _draw_head(self, frame, left, y, width, scale):
+    def _draw_head(self, frame, left, y, width, opening, scale):
         font, line = small_font(scale)
         frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
         y += 10 * scale
         kind = self.shown_kind()
-        y = self._draw_sentence(frame, left, y, width, self._opening(), scale)
+        y = self._draw_sentence(frame, left, y, width, opening, scale)
         if kind == "verdict" and (own := own_sentence(self.measuring.scene.own_hits, self.measuring.scene.tier)):
             y = self._draw_sentence(frame, left, y, width, own, scale)
         lines = wrap(self._state(), width, font, scale)
@@ -309,22 +312,15 @@ class CostPanel:
             x += wide
         return y + (line + 3) * scale
 
-    def _opening(self):
+    def _opening(self, finding):
         """Return the first sentence of the panel: on boxes and pixels in a scene with both, otherwise the finding."""
         boxes = self.survey.boxes_and_pixels() if self.shown_kind() == "verdict" else ""
-        return boxes or self._finding() or "Measuring: the answer comes in a few seconds."
+        return boxes or finding or "Measuring: the answer comes in a few seconds."
 
     def _finding(self):
         advice = self.measuring.advice
         proven = advice[0] if advice is not None and isinstance(advice[1], float) else None
         return self.survey.finding(self.shown_kind(), self.now(), proven)
-
-    def _draw_finding(self, frame, left, y, width, scale):
-        """Draw the finding, unless the panel opens with it. Return the y below it."""
-        finding = self._finding()
-        if not finding or finding == self._opening() or not self.survey.can_judge_tiers():
-            return y
-        return self._draw_sentence(frame, left, y, width, finding, scale)
 
     def _draw_runs(self, frame, rect, now, scale):
         """Draw how many runs of each setting are done, while no setting has enough of them for a number."""
