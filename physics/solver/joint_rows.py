@@ -616,18 +616,32 @@ def solve_hold_across(soft, context, joint_inout, a_inout, b_inout):
 
 
 @subkernel
-def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
-    """Solve the part of a joint that holds its two anchors together, with a bounded force.
+def change_point(bias_x, bias_y, mass_share, give, a, b, joint_inout):
+    """Change the impulse at the anchors of a joint, so that B's anchor moves at minus a bias relative to A's anchor.
 
-    The anchors are held rigidly or by a spring, or only their relative velocity is controlled. Both directions are
-    solved together. soft: result of rigid_softness; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
-    MOTION rows.
+    Both directions are solved together. The caller applies the change. bias_x, bias_y [px/s]; mass_share, give: see
+    softness_of; a, b: MOTION rows; joint_inout: JOINT row.
     """
-    j, a, b = joint_inout, a_inout, b_inout
+    j = joint_inout
     k_11, k_12, k_22 = point_inverse_mass(j, a, b)
     determinant = k_11 * k_22 - k_12 * k_12
     if determinant <= 0.0:
         return
+    x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
+    y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
+    before_x, before_y = j.point_x, j.point_y
+    j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
+    j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
+
+
+@subkernel
+def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
+    """Solve the part of a joint that holds its two anchors together, with a bounded force.
+
+    The anchors are held rigidly or by a spring, or only their relative velocity is controlled. soft: result of
+    rigid_softness; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
+    """
+    j, a, b = joint_inout, a_inout, b_inout
     rate, mass_share, give = soft
     if j.point_hertz > 0.0:
         rate, mass_share, give = softness_of(j.point_hertz, j.point_damping, context.h)
@@ -639,11 +653,8 @@ def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
         mass_share, give = 1.0, 0.0
         bias_x = j.ny * j.target_vy - j.nx * j.target_vx  # nx, ny: the x axis of A
         bias_y = -j.ny * j.target_vx - j.nx * j.target_vy
-    x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
-    y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
     before_x, before_y = j.point_x, j.point_y
-    j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
-    j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
+    change_point(bias_x, bias_y, mass_share, give, a, b, j)
     if j.point_max < math.inf:
         most = j.point_max * context.h
         size = norm(j.point_x, j.point_y)
@@ -662,20 +673,13 @@ def solve_pin(soft, push_speed, joint_inout, a_inout, b_inout):
     a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
-    k_11, k_12, k_22 = point_inverse_mass(j, a, b)
-    determinant = k_11 * k_22 - k_12 * k_12
-    if determinant <= 0.0:
-        return
     rate, mass_share, give = soft
     bias_x, bias_y = rate * j.apart_x, rate * j.apart_y
     if max(abs(bias_x), abs(bias_y)) > 0.5 * push_speed:
         factor, mass_share, give = slowed(norm(bias_x, bias_y), push_speed, mass_share, give)
         bias_x, bias_y = factor * bias_x, factor * bias_y
-    x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
-    y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
     before_x, before_y = j.point_x, j.point_y
-    j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
-    j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
+    change_point(bias_x, bias_y, mass_share, give, a, b, j)
     push(j, j.point_x - before_x, j.point_y - before_y, 0.0, a, b)
 
 
